@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "error.h"
+
+namespace scanworld::cli {
+
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void ask_to_stop(int signal) {
+  stop_asked = 1;
+  std::signal(signal, SIG_DFL);  // the second time it ends at once
+}
+
+}  // namespace
+
+void Console::add_to(CLI::App& verb) {
+  verb.add_flag("-q,--quiet", quiet, "No warnings, no progress");
+  verb.add_flag("-v,--verbose", verbose, "Say more on stderr");
+  verb.add_option("--progress", progress, "Progress on stderr: auto (a bar on a terminal), bar, json or none")
+      ->check(CLI::IsMember({"auto", "bar", "json", "none"}))
+      ->capture_default_str();
+}
+
+void Console::warn(const std::string& text) const {
+  if (!quiet) fmt::print(stderr, "scanworld: warning: {}\n", text);
+}
+
+void Console::note(const std::string& text) const {
+  if (verbose && !quiet) fmt::print(stderr, "scanworld: {}\n", text);
+}
+
+bool Console::draws_bar() const { return progress == "bar" || (progress == "auto" && !quiet && isatty(STDERR_FILENO)); }
+
+Progress Console::make_progress() const {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  return [bar = draws_bar(), json = progress == "json"](std::string_view stage, double fraction) {
+    if (stop_asked) throw Error(Cause::failure, "stopped on request; nothing was written");
+    if (bar) {
+      constexpr int kWidth = 30;
+      const int done = static_cast<int>(fraction * kWidth);
+      fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} % {:<28}", "", done, "", kWidth - done, 100 * fraction, stage);
+      std::fflush(stderr);
+    }
+    if (json)
+      fmt::print(stderr, "{}\n", nlohmann::ordered_json{{"stage", stage}, {"fraction", fraction}}.dump());
+  };
+}
+
+void Console::finish_progress() const {
+  if (draws_bar()) fmt::print(stderr, "\r{:70}\r", "");
+}
+
+std::string grouped(std::size_t number) {
+  std::string text = fmt::to_string(number);
+  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, ",");
+  return text;
+}
+
+std::string text_of(const Vec3& v) { return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z()); }
+
+nlohmann::ordered_json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json kind_counts(const World& world) {
+  nlohmann::ordered_json counts;
+  for (Kind kind : {Kind::floor, Kind::ceiling, Kind::wall, Kind::other}) counts[name_of(kind)] = 0;
+  for (const Surface& s : world.surfaces) counts[name_of(s.kind)] = counts[name_of(s.kind)].get<int>() + 1;
+  return counts;
+}
+
+void print_json(const nlohmann::ordered_json& json) { fmt::print("{}\n", json.dump(2)); }
+
+}  // namespace scanworld::cli

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "progress.h"
+#include "world/world.h"
+
+namespace scanworld::cli {
+
+// The verbs. Each adds its subcommand, which runs when the command line is parsed and may throw Error.
+void add_build(CLI::App& app);
+void add_info(CLI::App& app);
+void add_export(CLI::App& app);
+void add_scan(CLI::App& app);
+void add_check(CLI::App& app);
+
+// What goes to stderr: the log, by how much of it is wanted, and the progress.
+struct Console {
+  bool quiet = false, verbose = false;
+  std::string progress = "auto";  // auto, bar, json or none
+
+  // Adds -q, -v and --progress to a verb.
+  void add_to(CLI::App& verb);
+  void warn(const std::string& text) const;
+  void note(const std::string& text) const;  // with -v only
+  // Draws a bar on a terminal or prints JSON lines, and throws where the user asked to stop.
+  Progress make_progress() const;
+  // Takes the bar away.
+  void finish_progress() const;
+
+ private:
+  bool draws_bar() const;
+};
+
+// A file in a folder, joined; numbers grouped by thousands; boxes as text.
+std::string grouped(std::size_t number);
+std::string text_of(const Vec3& v);
+
+nlohmann::ordered_json json_of(const Vec3& v);
+
+// A count of each kind: {"floor": 1, ...}
+nlohmann::ordered_json kind_counts(const World& world);
+
+// Prints JSON to stdout.
+void print_json(const nlohmann::ordered_json& json);
+
+}  // namespace scanworld::cli

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli.h"
+#include "exporters/assimp.h"
+#include "files.h"
+#include "scan/ply.h"
+#include "scan/read_scan.h"
+#include "world/world_json.h"
+
+namespace scanworld::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class FileKind { scan, mesh, world };
+
+FileKind kind_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::string extension = lower_extension(file);
+  if (extension == ".json" || std::filesystem::is_directory(file, ignored)) return FileKind::world;
+  static const std::vector<std::string> meshes = {".obj", ".stl", ".glb", ".gltf", ".dae", ".off", ".3ds", ".fbx"};
+  if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return FileKind::mesh;
+  if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
+  return FileKind::scan;
+}
+
+Json box_json(const Box3& box, const Vec3& origin) {
+  if (box.isEmpty()) return nullptr;
+  return {{"min", json_of(box.min() + origin)}, {"max", json_of(box.max() + origin)}, {"size", json_of(box.sizes())}};
+}
+
+Json scan_info(const std::filesystem::path& file) {
+  const PointCloud cloud = read_scan({file});
+  Box3 box;
+  for (const Vec3f& p : cloud.points) box.extend(p.cast<double>());
+  Json viewpoints = Json::array();
+  for (const Vec3& v : cloud.viewpoints) viewpoints.push_back(json_of(v + cloud.origin));
+  return {{"file", file.string()},
+          {"is", "scan"},
+          {"format", scan_format(file)},
+          {"points", cloud.points.size()},
+          {"not_finite", cloud.skipped.size()},
+          {"bounds", box_json(box, cloud.origin)},
+          {"origin", json_of(cloud.origin)},
+          {"normals", !cloud.normals.empty()},
+          {"colors", !cloud.colors.empty()},
+          {"viewpoints", viewpoints},
+          {"camera_image", cloud.camera_frame},
+          {"fingerprint", fingerprint(cloud)}};
+}
+
+Json mesh_info(const std::filesystem::path& file) {
+  const Mesh mesh = read_mesh(file);
+  Box3 box;
+  double area = 0;
+  for (const Vec3& v : mesh.vertices) box.extend(v);
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+  }
+  return {{"file", file.string()},          {"is", "mesh"},  {"triangles", mesh.triangles.size()},
+          {"vertices", mesh.vertices.size()}, {"area", area}, {"bounds", box_json(box, Vec3::Zero())}};
+}
+
+Json world_info(const std::filesystem::path& file) {
+  const World world = read_world(file);
+  double total = 0;
+  for (const Surface& s : world.surfaces) total += area(world, s);
+  Json inputs = Json::array();
+  for (const auto& input : world.provenance.inputs) inputs.push_back(input.file);
+  return {{"file", file.string()},
+          {"is", "world"},
+          {"surfaces", kind_counts(world)},
+          {"vertices", world.vertices.size()},
+          {"openings", world.openings.size()},
+          {"obstacles", world.obstacles.size()},
+          {"colliders", world.colliders.size()},
+          {"rooms", world.rooms.size()},
+          {"area", total},
+          {"bounds", box_json(bounds(world), world.frame.origin)},
+          {"origin", json_of(world.frame.origin)},
+          {"up", json_of(world.frame.up)},
+          {"assumed", world.frame.assumed},
+          {"made_by", world.provenance.program},
+          {"made_from", inputs},
+          {"world_hash", world_hash(world)}};
+}
+
+// One line a value; nested objects as "a 1, b 2".
+std::string as_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.3f}", value.get<double>());
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_null()) return "none";
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& item : value.items()) {
+    const char* between = value.is_object() ? ", " : item.value().is_number() ? " " : "; ";
+    text += (text.empty() ? "" : between) + (value.is_object() ? item.key() + " " : "") + as_text(item.value());
+  }
+  return text.empty() ? "none" : text;
+}
+
+void run(const std::filesystem::path& file, bool json) {
+  Json info;
+  switch (kind_of(file)) {
+    case FileKind::scan: info = scan_info(file); break;
+    case FileKind::mesh: info = mesh_info(file); break;
+    case FileKind::world: info = world_info(file); break;
+  }
+  if (json) return print_json(info);
+  for (const auto& item : info.items()) {
+    std::string name = item.key();
+    std::replace(name.begin(), name.end(), '_', ' ');
+    fmt::print("{:<14} {}\n", name, as_text(item.value()));
+  }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  struct Request {
+    std::filesystem::path file;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App* verb = app.add_subcommand("info", "Tell what is in a scan, mesh or world");
+  verb->add_option("file", request->file, "A scan, a mesh, a world.json or its folder")->required()->type_name("FILE");
+  verb->add_flag("--json", request->json, "As JSON");
+  verb->footer("Example:\n  scanworld info office.ply");
+  verb->callback([request] { run(request->file, request->json); });
+}
+
+}  // namespace scanworld::cli

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "assimp.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <memory>
+
+#include "error.h"
+#include "files.h"
+#include "parts.h"
+
+namespace scanworld {
+
+namespace {
+
+aiVector3D vector(const Vec3& v) {
+  return {static_cast<ai_real>(v.x()), static_cast<ai_real>(v.y()), static_cast<ai_real>(v.z())};
+}
+
+aiMesh* mesh_of(const ExportPart& part, unsigned material) {
+  auto* mesh = new aiMesh;
+  mesh->mName = part.name;
+  mesh->mMaterialIndex = material;
+  mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  mesh->mNumVertices = static_cast<unsigned>(part.mesh.vertices.size());
+  mesh->mVertices = new aiVector3D[mesh->mNumVertices];
+  for (unsigned i = 0; i < mesh->mNumVertices; ++i) mesh->mVertices[i] = vector(part.mesh.vertices[i]);
+  mesh->mNumFaces = static_cast<unsigned>(part.mesh.triangles.size());
+  mesh->mFaces = new aiFace[mesh->mNumFaces];
+  for (unsigned i = 0; i < mesh->mNumFaces; ++i) {
+    mesh->mFaces[i].mNumIndices = 3;
+    mesh->mFaces[i].mIndices = new unsigned[3];
+    for (std::size_t k = 0; k < 3; ++k) mesh->mFaces[i].mIndices[k] = static_cast<unsigned>(part.mesh.triangles[i][k]);
+  }
+  return mesh;
+}
+
+aiMaterial* material_of(const ExportPart& part) {
+  auto* material = new aiMaterial;
+  const aiColor3D color(part.color.r / 255.f, part.color.g / 255.f, part.color.b / 255.f);
+  const aiString name(part.name);
+  material->AddProperty(&name, AI_MATKEY_NAME);
+  material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
+  return material;
+}
+
+// The scene owns all that is made with new, as assimp wants it.
+std::unique_ptr<aiScene> scene_of(const World& world) {
+  const std::vector<ExportPart> parts = export_parts(world);
+  const unsigned count = static_cast<unsigned>(parts.size());
+  auto scene = std::make_unique<aiScene>();
+  scene->mNumMeshes = scene->mNumMaterials = count;
+  scene->mMeshes = new aiMesh*[count];
+  scene->mMaterials = new aiMaterial*[count];
+  scene->mRootNode = new aiNode("world");
+  scene->mRootNode->mNumChildren = count;
+  scene->mRootNode->mChildren = new aiNode*[count];
+  for (unsigned i = 0; i < count; ++i) {
+    scene->mMeshes[i] = mesh_of(parts[i], i);
+    scene->mMaterials[i] = material_of(parts[i]);
+    auto* node = new aiNode(parts[i].name);
+    node->mParent = scene->mRootNode;
+    node->mNumMeshes = 1;
+    node->mMeshes = new unsigned[1]{i};
+    scene->mRootNode->mChildren[i] = node;
+  }
+  // The axes, for formats that hold them (Collada): up is Z.
+  scene->mMetaData = aiMetadata::Alloc(3);
+  scene->mMetaData->Set(0, "UpAxis", 2);
+  scene->mMetaData->Set(1, "UpAxisSign", 1);
+  scene->mMetaData->Set(2, "UnitScaleFactor", 1.f);
+  return scene;
+}
+
+void fill_element(std::string& xml, const std::string& tag, const std::string& value) {
+  const std::size_t begin = xml.find("<" + tag + ">"), end = xml.find("</" + tag + ">");
+  if (begin != std::string::npos && end != std::string::npos)
+    xml.replace(begin + tag.size() + 2, end - begin - tag.size() - 2, value);
+}
+
+}  // namespace
+
+void write_with_assimp(const std::filesystem::path& path, const World& world, const std::string& format) {
+  const auto scene = scene_of(world);
+  Assimp::Exporter exporter;
+  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format);
+  if (!blob) throw Error(Cause::failure, path.string() + ": assimp cannot write it: " + exporter.GetErrorString());
+  std::string text(static_cast<const char*>(blob->data), blob->size);
+  // The same world gives the same file: not the time of writing.
+  for (const char* tag : {"created", "modified"}) fill_element(text, tag, "2000-01-01T00:00:00");
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (!scene) throw Error(Cause::bad_input, path.string() + ": " + importer.GetErrorString());
+  Mesh mesh;
+  std::map<std::array<ai_real, 3>, int> index_of;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      if (part.mFaces[f].mNumIndices != 3) continue;  // points and lines
+      std::array<int, 3> triangle{};
+      for (unsigned k = 0; k < 3; ++k) {
+        const aiVector3D& v = part.mVertices[part.mFaces[f].mIndices[k]];
+        const auto [found, is_new] = index_of.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh.vertices.size()));
+        if (is_new) mesh.vertices.emplace_back(v.x, v.y, v.z);
+        triangle[k] = found->second;
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace scanworld

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "obj.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "files.h"
+#include "parts.h"
+
+namespace scanworld {
+
+namespace {
+
+// Surfaces without a colour of their own share one material a kind.
+std::string material_of(const ExportPart& part) {
+  if (part.color == color_of(part.kind)) return part.is_surface ? name_of(part.kind) : "obstacle";
+  return fmt::format("rgb_{:02x}{:02x}{:02x}", part.color.r, part.color.g, part.color.b);
+}
+
+std::string frame_comment(const Frame& frame) {
+  std::string text = "# scanworld: metres";
+  text += fmt::format(", up is {} {} {}", frame.up.x(), frame.up.y(), frame.up.z());
+  if (!frame.origin.isZero())
+    text += fmt::format(", add {} {} {} to get the scan's coordinates", frame.origin.x(), frame.origin.y(), frame.origin.z());
+  return text + "\n";
+}
+
+}  // namespace
+
+void write_obj(const std::filesystem::path& path, const World& world) {
+  const std::vector<ExportPart> parts = export_parts(world);
+  const std::filesystem::path mtl_path = std::filesystem::path(path).replace_extension(".mtl");
+
+  std::string mtl = "# scanworld\n";
+  std::set<std::string> known;
+  for (const ExportPart& part : parts)
+    if (known.insert(material_of(part)).second)
+      mtl += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", material_of(part), part.color.r / 255.0, part.color.g / 255.0, part.color.b / 255.0);
+
+  std::string obj = frame_comment(world.frame);
+  obj += fmt::format("mtllib {}\n", mtl_path.filename().string());
+  int base = 1;
+  for (const ExportPart& part : parts) {
+    obj += fmt::format("o {}\nusemtl {}\n", part.name, material_of(part));
+    for (const Vec3& v : part.mesh.vertices) obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
+    for (const auto& t : part.mesh.triangles) obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
+    base += static_cast<int>(part.mesh.vertices.size());
+  }
+
+  OutputFile mtl_file(mtl_path), obj_file(path);
+  mtl_file.write(mtl);
+  obj_file.write(obj);
+  mtl_file.commit();
+  obj_file.commit();
+}
+
+}  // namespace scanworld

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "options.h"
+#include "progress.h"
+#include "report.h"
+#include "thesis/thesis.h"
+#include "world/world.h"
+
+namespace scanworld {
+
+enum class Method { thesis };
+
+struct ReconstructOptions {
+  Method method = Method::thesis;
+  thesis::ThesisOptions thesis;
+};
+
+struct ReconstructResult {
+  World world;  // without provenance inputs, which only the caller knows
+  Report report;
+  std::vector<std::int32_t> labels;  // for each point of the cloud the id of its surface, -1 = none
+};
+
+// Makes a world of a scan. The same points and options give the same world, whatever the number of
+// threads and the order of the points. Throws nothing_found where the scan holds no plane.
+ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
+                              const Progress& progress = {});
+
+// All options by name, for a command line, a file or a report.
+OptionList list_options(ReconstructOptions& options);
+
+// The names of the presets.
+const std::vector<std::string>& preset_names();
+
+// The preset that suits a scan where none is asked for: rgbd for a depth camera's image, else indoor.
+std::string preset_for(const PointCloud& cloud);
+
+// Changes options for a kind of scan. Throws usage where there is no preset of this name.
+void apply_preset(ReconstructOptions& options, const std::string& preset);
+
+}  // namespace scanworld

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "hull.h"
+
+namespace scanworld::thesis {
+
+namespace {
+
+constexpr double kFrontDepth = 4;          // [m] how far before and behind a polygon the place is looked at
+constexpr std::size_t kFrontPoints = 20000;  // of all points so many are looked at, about
+
+// What the points of one cluster add up to, in whole numbers: their order does not matter.
+struct Sums {
+  std::uint64_t points = 0;
+  std::uint64_t square_um = 0;  // [um2] of the distances from the plane
+  std::array<std::uint64_t, 3> color{};
+};
+
+std::vector<Sums> add_up(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
+                         const std::vector<Cluster>& clusters) {
+  std::vector<Sums> sums(clusters.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    const std::size_t c = static_cast<std::size_t>(labels[i]);
+    const double off = clusters[c].fit.plane.signed_distance(cloud.points[i].cast<double>());
+    const auto um = static_cast<std::uint64_t>(std::llround(std::abs(off) * 1e6));
+    ++sums[c].points;
+    sums[c].square_um += um * um;
+    if (cloud.colors.empty()) continue;
+    const Color& color = cloud.colors[i];
+    sums[c].color[0] += color.r, sums[c].color[1] += color.g, sums[c].color[2] += color.b;
+  }
+  return sums;
+}
+
+Vec3 middle_of(const Polygon& polygon) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& v : polygon) sum += v;
+  return sum / static_cast<double>(polygon.size());
+}
+
+bool is_inside(const Vec3& p, const Polygon& polygon, const Vec3& normal) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (is_seeing(p, polygon[i], polygon[(i + 1) % polygon.size()], normal)) return false;
+  return true;
+}
+
+// Positive where the free side is the one that the plane's normal points to.
+double free_side(const Plane& plane, const Polygon& polygon, const std::vector<Vec3>& viewpoints,
+                 const std::vector<Vec3>& points) {
+  if (!viewpoints.empty()) {
+    const Vec3 middle = middle_of(polygon);
+    const auto nearest = std::min_element(viewpoints.begin(), viewpoints.end(), [&](const Vec3& a, const Vec3& b) {
+      return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+    });
+    return plane.signed_distance(*nearest);
+  }
+  double sum = 0;
+  const std::size_t step = points.size() / kFrontPoints + 1;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const double distance = plane.signed_distance(points[i]);
+    if (std::abs(distance) < kFrontDepth && is_inside(points[i], polygon, plane.normal)) sum += distance;
+  }
+  return sum;
+}
+
+// The share of the polygon's cells of two delta that hold one of the cluster's points.
+double coverage(const Cluster& cluster, const Polygon& polygon, const std::vector<Vec3>& points, double delta) {
+  const PlaneFrame frame = frame_of(cluster.fit.plane, polygon[0]);
+  const double size = 2 * delta;
+  const auto cell_at = [&](const Vec3& p) {
+    const Vec2 q = (frame.to_plane(p) / size).array().floor();
+    return std::pair{static_cast<int>(q.x()), static_cast<int>(q.y())};
+  };
+  std::set<std::pair<int, int>> occupied;
+  for (int p : cluster.members) occupied.insert(cell_at(points[static_cast<std::size_t>(p)]));
+  auto low = cell_at(polygon[0]), high = low;
+  for (const Vec3& v : polygon) {
+    const auto cell = cell_at(v);
+    low = {std::min(low.first, cell.first), std::min(low.second, cell.second)};
+    high = {std::max(high.first, cell.first), std::max(high.second, cell.second)};
+  }
+  std::size_t inside = 0, covered = 0;
+  for (int i = low.first; i <= high.first; ++i)
+    for (int j = low.second; j <= high.second; ++j) {
+      if (!is_inside(frame.to_space(Vec2((i + 0.5) * size, (j + 0.5) * size)), polygon, cluster.fit.plane.normal)) continue;
+      ++inside;
+      covered += occupied.count({i, j});
+    }
+  return inside > 0 ? static_cast<double>(covered) / static_cast<double>(inside) : 1;
+}
+
+}  // namespace
+
+std::vector<FoundSurface> describe_walls(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
+                                         const std::vector<Vec3>& points, double delta,
+                                         const std::vector<Cluster>& clusters, const std::vector<Polygon>& polygons) {
+  const std::vector<Sums> sums = add_up(cloud, labels, clusters);
+  std::vector<FoundSurface> walls;
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    FoundSurface wall{.plane = clusters[c].fit.plane, .outer = polygons[c]};
+    if (polygons[c].size() >= 3) {
+      wall.support.coverage = coverage(clusters[c], polygons[c], points, delta);
+      if (free_side(wall.plane, wall.outer, cloud.viewpoints, points) < 0) {
+        wall.plane = wall.plane.flipped();
+        std::reverse(wall.outer.begin(), wall.outer.end());
+      }
+    }
+    wall.support.points = sums[c].points;
+    if (sums[c].points > 0) {
+      const double n = static_cast<double>(sums[c].points);
+      wall.support.rms = std::sqrt(static_cast<double>(sums[c].square_um) / n) * 1e-6;
+      const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>(static_cast<double>(sums[c].color[k]) / n + 0.5); };
+      if (!cloud.colors.empty()) wall.color = Color{mean(0), mean(1), mean(2)};
+    }
+    walls.push_back(std::move(wall));
+  }
+  return walls;
+}
+
+}  // namespace scanworld::thesis

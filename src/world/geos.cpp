@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "geos.h"
+
+#include <fmt/format.h>
+#include <geos_c.h>
+
+#include <memory>
+
+namespace scanworld::geos {
+
+namespace {
+
+// One context a call: GEOS keeps its state there, so that calls from several threads do not meet.
+struct Context {
+  GEOSContextHandle_t handle = GEOS_init_r();
+  ~Context() { GEOS_finish_r(handle); }
+};
+
+struct Free {
+  GEOSContextHandle_t handle;
+  void operator()(GEOSGeometry* g) const { GEOSGeom_destroy_r(handle, g); }
+};
+using Geometry = std::unique_ptr<GEOSGeometry, Free>;
+
+GEOSGeometry* ring_of(GEOSContextHandle_t handle, const std::vector<Vec2>& ring) {
+  std::vector<double> xy;
+  for (std::size_t i = 0; i <= ring.size(); ++i) {
+    xy.push_back(ring[i % ring.size()].x());
+    xy.push_back(ring[i % ring.size()].y());
+  }
+  return GEOSGeom_createLinearRing_r(
+      handle, GEOSCoordSeq_copyFromBuffer_r(handle, xy.data(), static_cast<unsigned>(ring.size() + 1), 0, 0));
+}
+
+Geometry polygon_of(const Context& context, const Rings& rings) {
+  std::vector<GEOSGeometry*> holes;
+  for (std::size_t i = 1; i < rings.size(); ++i) holes.push_back(ring_of(context.handle, rings[i]));
+  return {GEOSGeom_createPolygon_r(context.handle, ring_of(context.handle, rings[0]), holes.data(),
+                                   static_cast<unsigned>(holes.size())),
+          Free{context.handle}};
+}
+
+std::vector<Vec2> corners(const Context& context, const GEOSGeometry* geometry) {
+  const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(context.handle, geometry);
+  unsigned size = 0;
+  GEOSCoordSeq_getSize_r(context.handle, sequence, &size);
+  std::vector<double> xy(2 * static_cast<std::size_t>(size));
+  GEOSCoordSeq_copyToBuffer_r(context.handle, sequence, xy.data(), 0, 0);
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < size; ++i) points.emplace_back(xy[2 * i], xy[2 * i + 1]);
+  return points;
+}
+
+}  // namespace
+
+std::optional<std::string> why_invalid(const Rings& rings) {
+  const Context context;
+  const Geometry polygon = polygon_of(context, rings);
+  if (!polygon) return "it is no ring";
+  char* reason = nullptr;
+  GEOSGeometry* location = nullptr;
+  const char valid = GEOSisValidDetail_r(context.handle, polygon.get(), 0, &reason, &location);
+  const Geometry at(location, Free{context.handle});
+  std::string text = reason ? reason : "unknown reason";
+  if (reason) GEOSFree_r(context.handle, reason);
+  if (valid == 1) return std::nullopt;
+  if (at) {
+    const Vec2 p = corners(context, at.get())[0];
+    text += fmt::format(" at ({:.3f}, {:.3f}) of its plane", p.x(), p.y());
+  }
+  return text;
+}
+
+std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings) {
+  const Context context;
+  const Geometry polygon = polygon_of(context, rings);
+  if (!polygon) return std::nullopt;
+  const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()), Free{context.handle});
+  if (!result) return std::nullopt;
+  std::vector<std::array<Vec2, 3>> triangles;
+  const int count = GEOSGetNumGeometries_r(context.handle, result.get());
+  for (int i = 0; i < count; ++i) {
+    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, result.get(), i);
+    const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
+    const Vec2 ab = p[1] - p[0], ac = p[2] - p[0];
+    const bool ccw = ab.x() * ac.y() - ab.y() * ac.x() > 0;
+    triangles.push_back(ccw ? std::array{p[0], p[1], p[2]} : std::array{p[0], p[2], p[1]});
+  }
+  return triangles;
+}
+
+}  // namespace scanworld::geos

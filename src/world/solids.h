@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "world.h"
+
+namespace scanworld {
+
+// Solids as closed triangle meshes, counter-clockwise seen from outside.
+Mesh mesh_of(const OrientedBox& box);
+Mesh mesh_of(const ConvexPrism& prism);
+
+// The sides are `facets` flat faces whose corners lie on the cylinder.
+Mesh mesh_of(const Cylinder& cylinder, const Vec3& up, int facets = 24);
+
+// By Qhull. Throws check_failed where the points have no volume.
+Mesh mesh_of(const ConvexHull& hull);
+
+Mesh mesh_of(const Obstacle& obstacle, const Frame& frame);
+
+}  // namespace scanworld

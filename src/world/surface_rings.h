@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geos.h"
+#include "world.h"
+
+namespace scanworld {
+
+// The loops of a surface in the frame of its plane, the outer one first, vertex for vertex.
+// Their indices must be in range.
+inline geos::Rings rings_of(const World& world, const Surface& surface) {
+  const auto at = [&](int index) -> const Vec3& { return world.vertices[static_cast<std::size_t>(index)]; };
+  const PlaneFrame frame = frame_of(surface.plane, at(surface.outer[0]));
+  const auto ring = [&](const Loop& loop) {
+    std::vector<Vec2> points;
+    for (int index : loop) points.push_back(frame.to_plane(at(index)));
+    return points;
+  };
+  geos::Rings rings = {ring(surface.outer)};
+  for (const Loop& hole : surface.holes) rings.push_back(ring(hole));
+  return rings;
+}
+
+// Twice the signed area of a ring: positive where it is counter-clockwise.
+inline double doubled_area(const std::vector<Vec2>& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
+    sum += p.x() * q.y() - p.y() * q.x();
+  }
+  return sum;
+}
+
+}  // namespace scanworld

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "world.h"
+
+namespace scanworld {
+
+namespace {
+
+// Twice the area that a loop goes around, as a vector along its normal.
+Vec3 doubled_area(const World& world, const Loop& loop) {
+  Vec3 sum = Vec3::Zero();
+  const auto at = [&](std::size_t i) { return world.vertices[static_cast<std::size_t>(loop[i % loop.size()])]; };
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += (at(i) - at(0)).cross(at(i + 1) - at(0));
+  return sum;
+}
+
+void extend(Box3& box, const OrientedBox& b) {
+  const Vec3 reach = b.rotation.toRotationMatrix().cwiseAbs() * b.size / 2;
+  box.extend(b.center - reach).extend(Vec3(b.center + reach));
+}
+void extend(Box3& box, const ConvexHull& h) {
+  for (const Vec3& v : h.vertices) box.extend(v);
+}
+
+}  // namespace
+
+const char* name_of(Kind kind) {
+  static constexpr const char* names[] = {"floor", "ceiling", "wall", "other"};
+  return names[static_cast<int>(kind)];
+}
+
+const char* name_of(Source source) {
+  static constexpr const char* names[] = {"measured", "inferred"};
+  return names[static_cast<int>(source)];
+}
+
+const char* name_of(OpeningKind kind) {
+  static constexpr const char* names[] = {"door", "window", "passage"};
+  return names[static_cast<int>(kind)];
+}
+
+double area(const World& world, const Surface& surface) {
+  Vec3 sum = doubled_area(world, surface.outer);
+  for (const Loop& hole : surface.holes) sum += doubled_area(world, hole);
+  return sum.dot(surface.plane.normal) / 2;
+}
+
+Box3 bounds(const World& world) {
+  Box3 box;
+  for (const Vec3& v : world.vertices) box.extend(v);
+  for (const Obstacle& obstacle : world.obstacles) {
+    if (const auto* b = std::get_if<OrientedBox>(&obstacle.shape)) extend(box, *b);
+    if (const auto* h = std::get_if<ConvexHull>(&obstacle.shape)) extend(box, *h);
+    if (const auto* c = std::get_if<Cylinder>(&obstacle.shape)) {
+      const Vec3 half = world.frame.up * c->height / 2, r = Vec3::Constant(c->radius);
+      box.extend(c->center - half - r).extend(c->center - half + r);
+      box.extend(c->center + half - r).extend(c->center + half + r);
+    }
+  }
+  return box;
+}
+
+}  // namespace scanworld

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The World: what a scan becomes, and all that exporters, checks and simulators see. docs/world.md describes the
+// file that holds it, world.json.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "../options.h"
+#include "../types.h"
+
+namespace scanworld {
+
+// A ring of vertices, by index into World::vertices; the last is joined to the first.
+using Loop = std::vector<int>;
+
+enum class Kind { floor, ceiling, wall, other };
+
+// Whether a surface was seen, or was put where it must be though nothing saw it.
+enum class Source { measured, inferred };
+
+// A planar polygon. Its plane's normal points to the free side, from where `outer` is counter-clockwise and the holes
+// are clockwise.
+struct Surface {
+  int id = 0;  // stable between runs; not an index
+  Kind kind = Kind::other;
+  Source source = Source::measured;
+  Plane plane;
+  Loop outer;
+  std::vector<Loop> holes;
+  std::optional<double> thickness;  // [m] of what is behind it, where that is known
+  Support support;
+  std::optional<Color> color;
+  bool operator==(const Surface&) const = default;
+};
+
+enum class OpeningKind { door, window, passage };
+
+// Where one can see or go through a surface. Its loop lies in the surface's plane: around one of its holes, or
+// along a notch in its outer loop.
+struct Opening {
+  int id = 0;
+  OpeningKind kind = OpeningKind::passage;
+  int surface = 0;  // id
+  Loop loop;
+  double width = 0, height = 0;  // [m] clear
+  std::string evidence;          // how it is known, in words
+  bool operator==(const Opening&) const = default;
+};
+
+struct OrientedBox {
+  Vec3 center = Vec3::Zero();
+  Vec3 size = Vec3::Zero();                                           // [m] full edge lengths
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();       // from the box's axes to the world's
+  bool operator==(const OrientedBox& o) const {
+    return center == o.center && size == o.size && rotation.coeffs() == o.rotation.coeffs();
+  }
+};
+
+struct ConvexHull {
+  std::vector<Vec3> vertices;  // the hull is that of these points
+  bool operator==(const ConvexHull&) const = default;
+};
+
+// Upright: its axis is World::frame.up.
+struct Cylinder {
+  Vec3 center = Vec3::Zero();
+  double radius = 0, height = 0;  // [m]
+  bool operator==(const Cylinder&) const = default;
+};
+
+// A convex polygon moved along a vector.
+struct ConvexPrism {
+  std::vector<Vec3> base;
+  Vec3 extrusion = Vec3::Zero();
+  bool operator==(const ConvexPrism&) const = default;
+};
+
+// Clutter that no surface explains.
+struct Obstacle {
+  int id = 0;
+  std::variant<OrientedBox, ConvexHull, Cylinder> shape;
+  bool operator==(const Obstacle&) const = default;
+};
+
+// A solid for a physics engine, derived from a surface.
+struct Collider {
+  int surface = 0;  // id
+  std::variant<OrientedBox, ConvexPrism> shape;
+  bool operator==(const Collider&) const = default;
+};
+
+struct Room {
+  int id = 0;
+  std::string name;
+  std::vector<int> surfaces;  // ids
+  bool operator==(const Room&) const = default;
+};
+
+// A way between two rooms.
+struct Door {
+  int opening = 0;  // id
+  std::array<int, 2> rooms{};  // ids
+  bool operator==(const Door&) const = default;
+};
+
+struct Frame {
+  Vec3 origin = Vec3::Zero();        // [m] add this to the world's coordinates to get those of the scan file
+  Vec3 up = Vec3::UnitZ();           // against gravity
+  std::vector<std::string> assumed;  // what was assumed about the frame and why, in words
+  bool operator==(const Frame&) const = default;
+};
+
+
+
+// Where a world comes from.
+struct Provenance {
+  struct Input {
+    std::string file;         // name without folder
+    std::size_t points = 0;
+    std::string fingerprint;  // of the set of points: the same in any order
+    bool operator==(const Input&) const = default;
+  };
+  std::string program;  // and version
+  std::vector<Input> inputs;
+  std::map<std::string, OptionValue> options;  // as they were used
+  bool operator==(const Provenance&) const = default;
+};
+
+struct World {
+  Frame frame;
+  std::vector<Vec3> vertices;
+  std::vector<Surface> surfaces;
+  std::vector<Opening> openings;
+  std::vector<Obstacle> obstacles;
+  std::vector<Collider> colliders;
+  std::vector<Room> rooms;
+  std::vector<Door> doors;
+  Provenance provenance;
+  bool operator==(const World&) const = default;
+};
+
+const char* name_of(Kind kind);
+const char* name_of(Source source);
+const char* name_of(OpeningKind kind);
+
+// The area of a surface [m2].
+double area(const World& world, const Surface& surface);
+
+// The box around all vertices and obstacles; empty for an empty world.
+Box3 bounds(const World& world);
+
+}  // namespace scanworld
