@@ -50,7 +50,9 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 ReconstructOptions resolve_options(const Request& request) {
   ReconstructOptions options;
@@ -76,8 +78,9 @@ void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses) {
 std::vector<std::string> warnings_about(const PointCloud& cloud) {
   std::vector<std::string> warnings;
   if (!cloud.skipped.empty())
-    warnings.push_back(fmt::format("{} of {} points are not finite and were left out (the first is point {})",
-                                   grouped(cloud.skipped.size()), grouped(cloud.input_size()), cloud.skipped[0] + 1));
+    warnings.push_back(fmt::format(
+        "{} of {} points are not finite and were left out (the first is point {})",
+        grouped(cloud.skipped.size()), grouped(cloud.input_size()), cloud.skipped[0] + 1));
   return warnings;
 }
 
@@ -86,20 +89,28 @@ void add_provenance(World& world, const Request& request, const PointCloud& clou
   std::vector<std::string> names;
   for (const auto& scan : request.scans) names.push_back(scan.filename().string());
   std::sort(names.begin(), names.end());
-  world.provenance.inputs.push_back({fmt::format("{}", fmt::join(names, ", ")), cloud.points.size(), fingerprint(cloud)});
+  world.provenance.inputs.push_back(
+      {fmt::format("{}", fmt::join(names, ", ")), cloud.points.size(), fingerprint(cloud)});
   world.provenance.options["preset"] = request.preset;
   world.provenance.options["seed"] = static_cast<std::int64_t>(request.seed);
 }
 
-Json report_json(const Request& request, const PointCloud& cloud, const ReconstructResult& result, const Report& report) {
+Json report_json(const Request& request, const PointCloud& cloud, const ReconstructResult& result,
+                 const Report& report) {
   Json stages = Json::array();
   double cpu = 0;
   for (const StageReport& s : report.stages) {
-    stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"cpu_seconds", s.cpu_seconds}, {"in", s.in}, {"out", s.out}, {"what", s.what}});
+    stages.push_back({{"name", s.name},
+                      {"seconds", s.seconds},
+                      {"cpu_seconds", s.cpu_seconds},
+                      {"in", s.in},
+                      {"out", s.out},
+                      {"what", s.what}});
     cpu += s.cpu_seconds;
   }
   const auto out_of = [&](std::string_view stage) {
-    const auto found = std::find_if(report.stages.begin(), report.stages.end(), [&](const StageReport& s) { return s.name == stage; });
+    const auto found = std::find_if(report.stages.begin(), report.stages.end(),
+                                    [&](const StageReport& s) { return s.name == stage; });
     return found == report.stages.end() ? std::size_t{0} : found->out;
   };
   Json scans = Json::array();
@@ -112,8 +123,10 @@ Json report_json(const Request& request, const PointCloud& cloud, const Reconstr
           {"points", {{"input", cloud.input_size()}, {"not_finite", cloud.skipped.size()}}},
           {"scale", report.scale},
           {"noise", report.noise},
-          {"filtering", {{"points_before", cloud.points.size()}, {"points_after", out_of("Filtering")}}},
-          {"clusters", {{"placed", out_of("Placing small clusters")}, {"walls", out_of("Spreading clusters")}}},
+          {"filtering",
+           {{"points_before", cloud.points.size()}, {"points_after", out_of("Filtering")}}},
+          {"clusters",
+           {{"placed", out_of("Placing small clusters")}, {"walls", out_of("Spreading clusters")}}},
           {"triangles", out_of("Triangulation")},
           {"surfaces", kind_counts(result.world)},
           {"stages", stages},
@@ -131,52 +144,65 @@ void write_json(const std::filesystem::path& path, const Json& json) {
 
 std::string summary(const Request& request, const World& world, const Json& report) {
   const auto count = [&](const char* kind) { return report["surfaces"][kind].get<std::size_t>(); };
-  return fmt::format("{}: {} surfaces ({} floor, {} ceiling, {} wall, {} other) and {} triangles from {} points in {:.2f} s",
-                     request.out.string(), world.surfaces.size(), count("floor"), count("ceiling"), count("wall"), count("other"),
-                     report["triangles"].get<std::size_t>(), grouped(report["points"]["input"].get<std::size_t>()),
-                     report["complete_seconds"].get<double>());
+  return fmt::format(
+      "{}: {} surfaces ({} floor, {} ceiling, {} wall, {} other) and {} triangles from {} points "
+      "in {:.2f} s",
+      request.out.string(), world.surfaces.size(), count("floor"), count("ceiling"), count("wall"),
+      count("other"), report["triangles"].get<std::size_t>(),
+      grouped(report["points"]["input"].get<std::size_t>()),
+      report["complete_seconds"].get<double>());
 }
 
 // Writes all files of the world into the folder.
-void write_files(const std::filesystem::path& folder, const Request& request, const std::vector<ExportFormat>& formats,
-                 const PointCloud& cloud, const ReconstructResult& result) {
+void write_files(const std::filesystem::path& folder, const Request& request,
+                 const std::vector<ExportFormat>& formats, const PointCloud& cloud,
+                 const ReconstructResult& result) {
   write_world(folder / "world.json", result.world);
-  for (const ExportFormat& format : formats) format.write(folder / ("world." + format.name), result.world);
+  for (const ExportFormat& format : formats)
+    format.write(folder / ("world." + format.name), result.world);
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 
 void run(Request request) {
   if (request.show_options) return fmt::print("{}", options_table());
-  if (request.scans.empty() || request.out.empty()) throw Error(Cause::usage, "build needs a SCAN and -o DIR (see --help)");
+  if (request.scans.empty() || request.out.empty())
+    throw Error(Cause::usage, "build needs a SCAN and -o DIR (see --help)");
   const auto start = Clock::now();
   // All that can be wrong about the request is found before a large file is read.
   ReconstructOptions options = resolve_options(request);
   const std::vector<ExportFormat> formats = resolve_exports(request);
-  const std::vector<Vec3> poses = request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
+  const std::vector<Vec3> poses =
+      request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
   OutputFolder folder(request.out, "world.json");
   const ThreadLimit threads(request.threads);
   const Progress progress = request.console.make_progress();
 
   Report reading;
   StageLog log(reading, progress, 20);
-  PointCloud cloud = log.run("Reading", "files -> points", request.scans.size(), [&] { return read_scan(request.scans); },
-                             [](const PointCloud& c) { return c.points.size(); });
+  PointCloud cloud = log.run(
+      "Reading", "files -> points", request.scans.size(), [&] { return read_scan(request.scans); },
+      [](const PointCloud& c) { return c.points.size(); });
   if (!poses.empty()) use_poses(cloud, poses);
   if (request.preset.empty()) {
     request.preset = preset_for(cloud);
     options = resolve_options(request);
   }
-  for (const std::string& warning : warnings_about(cloud)) request.console.warn(warning), reading.warnings.push_back(warning);
+  for (const std::string& warning : warnings_about(cloud))
+    request.console.warn(warning), reading.warnings.push_back(warning);
 
   ReconstructResult result = reconstruct(cloud, options, progress);
   add_provenance(result.world, request, cloud);
   if (const auto reasons = validate(result.world); !reasons.empty())
-    throw Error(Cause::check_failed, fmt::format("the world is not valid: {}", fmt::join(reasons, "; ")));
+    throw Error(Cause::check_failed,
+                fmt::format("the world is not valid: {}", fmt::join(reasons, "; ")));
 
-  log.run("Writing", "surfaces -> files", result.world.surfaces.size(), [&] {
-    write_files(folder.path(), request, formats, cloud, result);
-    return formats.size() + 1 + request.labels;
-  }, [](std::size_t files) { return files; });
+  log.run(
+      "Writing", "surfaces -> files", result.world.surfaces.size(),
+      [&] {
+        write_files(folder.path(), request, formats, cloud, result);
+        return formats.size() + 1 + request.labels;
+      },
+      [](std::size_t files) { return files; });
   Report report = result.report;
   report.stages.insert(report.stages.begin(), reading.stages[0]);
   report.stages.push_back(reading.stages[1]);
@@ -188,9 +214,12 @@ void run(Request request) {
 
   request.console.finish_progress();
   for (const StageReport& s : report.stages)
-    request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name, 1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
-  if (request.json) print_json(json);
-  else fmt::print("{}\n", summary(request, result.world, json));
+    request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name,
+                                     1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
+  if (request.json)
+    print_json(json);
+  else
+    fmt::print("{}\n", summary(request, result.world, json));
 }
 
 }  // namespace
@@ -198,20 +227,39 @@ void run(Request request) {
 void add_build(CLI::App& app) {
   auto request = std::make_shared<Request>();
   CLI::App* verb = app.add_subcommand("build", "Make a world of a scan");
-  verb->add_option("scans", request->scans, "Scan files of one place: PLY, PCD, XYZ, TXT, CSV, PTS (text also .gz)")->type_name("SCAN");
-  verb->add_option("-o,--out", request->out, "Folder to write; appears whole or not at all")->type_name("DIR");
-  verb->add_option("--method", request->method, "thesis: the method of 2012")->check(CLI::IsMember({"thesis"}))->capture_default_str();
-  verb->add_option("--preset", request->preset, "Options for a kind of scan")->check(CLI::IsMember(preset_names()))
+  verb->add_option("scans", request->scans,
+                   "Scan files of one place: PLY, PCD, XYZ, TXT, CSV, PTS (text also .gz)")
+      ->type_name("SCAN");
+  verb->add_option("-o,--out", request->out, "Folder to write; appears whole or not at all")
+      ->type_name("DIR");
+  verb->add_option("--method", request->method, "thesis: the method of 2012")
+      ->check(CLI::IsMember({"thesis"}))
+      ->capture_default_str();
+  verb->add_option("--preset", request->preset, "Options for a kind of scan")
+      ->check(CLI::IsMember(preset_names()))
       ->default_str("rgbd for a depth camera's image, else indoor");
   verb->add_option("--config", request->config, "TOML file with options")->type_name("F.toml");
-  verb->add_option("--set", request->assignments, "Set one option; may be repeated")->type_name("KEY=VALUE")->allow_extra_args(false);
-  verb->add_flag("--options", request->show_options, "List all options with default, unit and meaning");
-  verb->add_option("--poses", request->poses, "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")->type_name("F");
-  verb->add_option("--threads", request->threads, "Threads to use; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
-  verb->add_flag("--labels", request->labels, "Also write labels.ply: the surface of each input point");
+  verb->add_option("--set", request->assignments, "Set one option; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb->add_flag("--options", request->show_options,
+                 "List all options with default, unit and meaning");
+  verb->add_option("--poses", request->poses,
+                   "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")
+      ->type_name("F");
+  verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  verb->add_flag("--labels", request->labels,
+                 "Also write labels.ply: the surface of each input point");
   verb->add_option("--export", request->exports, "Formats to write beside world.json, or none")
-      ->type_name("LIST")->delimiter(',')->allow_extra_args(false)->capture_default_str();
-  verb->add_option("--seed", request->seed, "For methods that draw random numbers (the thesis' draws none)")->capture_default_str();
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  verb->add_option("--seed", request->seed,
+                   "For methods that draw random numbers (the thesis' draws none)")
+      ->capture_default_str();
   verb->add_flag("--json", request->json, "Print the report to stdout");
   request->console.add_to(*verb);
   verb->footer(kExample);

@@ -24,7 +24,8 @@ void run(const std::filesystem::path& path, bool json) {
     for (const std::string& reason : reasons) fmt::print("{}\n", reason);
   }
   if (!reasons.empty())
-    throw Error(Cause::check_failed, fmt::format("{}: not valid, {} reasons", path.string(), reasons.size()));
+    throw Error(Cause::check_failed,
+                fmt::format("{}: not valid, {} reasons", path.string(), reasons.size()));
 }
 
 }  // namespace
@@ -35,8 +36,11 @@ void add_check(CLI::App& app) {
     bool json = false;
   };
   auto request = std::make_shared<Request>();
-  CLI::App* verb = app.add_subcommand("check", "Tell whether a world is valid, and if not why (exit code 5)");
-  verb->add_option("world", request->world, "A world.json or its folder")->required()->type_name("WORLD");
+  CLI::App* verb =
+      app.add_subcommand("check", "Tell whether a world is valid, and if not why (exit code 5)");
+  verb->add_option("world", request->world, "A world.json or its folder")
+      ->required()
+      ->type_name("WORLD");
   verb->add_flag("--json", request->json, "As JSON");
   verb->footer("Example:\n  scanworld check office");
   verb->callback([request] { run(request->world, request->json); });

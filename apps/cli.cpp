@@ -26,7 +26,8 @@ void ask_to_stop(int signal) {
 void Console::add_to(CLI::App& verb) {
   verb.add_flag("-q,--quiet", quiet, "No warnings, no progress");
   verb.add_flag("-v,--verbose", verbose, "Say more on stderr");
-  verb.add_option("--progress", progress, "Progress on stderr: auto (a bar on a terminal), bar, json or none")
+  verb.add_option("--progress", progress,
+                  "Progress on stderr: auto (a bar on a terminal), bar, json or none")
       ->check(CLI::IsMember({"auto", "bar", "json", "none"}))
       ->capture_default_str();
 }
@@ -39,7 +40,9 @@ void Console::note(const std::string& text) const {
   if (verbose && !quiet) fmt::print(stderr, "scanworld: {}\n", text);
 }
 
-bool Console::draws_bar() const { return progress == "bar" || (progress == "auto" && !quiet && isatty(STDERR_FILENO)); }
+bool Console::draws_bar() const {
+  return progress == "bar" || (progress == "auto" && !quiet && isatty(STDERR_FILENO));
+}
 
 Progress Console::make_progress() const {
   std::signal(SIGINT, ask_to_stop);
@@ -49,11 +52,13 @@ Progress Console::make_progress() const {
     if (bar) {
       constexpr int kWidth = 30;
       const int done = static_cast<int>(fraction * kWidth);
-      fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} % {:<28}", "", done, "", kWidth - done, 100 * fraction, stage);
+      fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} % {:<28}", "", done, "", kWidth - done,
+                 100 * fraction, stage);
       std::fflush(stderr);
     }
     if (json)
-      fmt::print(stderr, "{}\n", nlohmann::ordered_json{{"stage", stage}, {"fraction", fraction}}.dump());
+      fmt::print(stderr, "{}\n",
+                 nlohmann::ordered_json{{"stage", stage}, {"fraction", fraction}}.dump());
   };
 }
 
@@ -67,14 +72,17 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-std::string text_of(const Vec3& v) { return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z()); }
+std::string text_of(const Vec3& v) {
+  return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z());
+}
 
 nlohmann::ordered_json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json kind_counts(const World& world) {
   nlohmann::ordered_json counts;
   for (Kind kind : {Kind::floor, Kind::ceiling, Kind::wall, Kind::other}) counts[name_of(kind)] = 0;
-  for (const Surface& s : world.surfaces) counts[name_of(s.kind)] = counts[name_of(s.kind)].get<int>() + 1;
+  for (const Surface& s : world.surfaces)
+    counts[name_of(s.kind)] = counts[name_of(s.kind)].get<int>() + 1;
   return counts;
 }
 

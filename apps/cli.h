@@ -12,7 +12,8 @@
 
 namespace scanworld::cli {
 
-// The verbs. Each adds its subcommand, which runs when the command line is parsed and may throw Error.
+// The verbs. Each adds its subcommand, which runs when the command line is parsed and may throw
+// Error.
 void add_build(CLI::App& app);
 void add_info(CLI::App& app);
 void add_export(CLI::App& app);

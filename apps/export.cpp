@@ -18,11 +18,14 @@ void add_export(CLI::App& app) {
   };
   auto request = std::make_shared<Request>();
   CLI::App* verb = app.add_subcommand("export", "Write a world in another format");
-  verb->add_option("world", request->world, "A world.json or its folder")->required()->type_name("WORLD");
+  verb->add_option("world", request->world, "A world.json or its folder")
+      ->required()
+      ->type_name("WORLD");
   verb->add_option("-o,--out", request->out, "File to write")->required()->type_name("OUT");
   verb->add_option("--format", request->format, "Format, where the extension does not tell it");
   std::string formats = "Formats:\n";
-  for (const ExportFormat& f : export_formats()) formats += fmt::format("  {:<5} {}\n", f.name, f.describes);
+  for (const ExportFormat& f : export_formats())
+    formats += fmt::format("  {:<5} {}\n", f.name, f.describes);
   verb->footer(formats + "\nExample:\n  scanworld export office -o office.glb");
   verb->callback([request] {
     const ExportFormat& format = export_format(request->out, request->format);

@@ -24,7 +24,8 @@ FileKind kind_of(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::string extension = lower_extension(file);
   if (extension == ".json" || std::filesystem::is_directory(file, ignored)) return FileKind::world;
-  static const std::vector<std::string> meshes = {".obj", ".stl", ".glb", ".gltf", ".dae", ".off", ".3ds", ".fbx"};
+  static const std::vector<std::string> meshes = {".obj", ".stl", ".glb", ".gltf",
+                                                  ".dae", ".off", ".3ds", ".fbx"};
   if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return FileKind::mesh;
   if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
   return FileKind::scan;
@@ -32,7 +33,9 @@ FileKind kind_of(const std::filesystem::path& file) {
 
 Json box_json(const Box3& box, const Vec3& origin) {
   if (box.isEmpty()) return nullptr;
-  return {{"min", json_of(box.min() + origin)}, {"max", json_of(box.max() + origin)}, {"size", json_of(box.sizes())}};
+  return {{"min", json_of(box.min() + origin)},
+          {"max", json_of(box.max() + origin)},
+          {"size", json_of(box.sizes())}};
 }
 
 Json scan_info(const std::filesystem::path& file) {
@@ -64,8 +67,12 @@ Json mesh_info(const std::filesystem::path& file) {
     const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
     area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
   }
-  return {{"file", file.string()},          {"is", "mesh"},  {"triangles", mesh.triangles.size()},
-          {"vertices", mesh.vertices.size()}, {"area", area}, {"bounds", box_json(box, Vec3::Zero())}};
+  return {{"file", file.string()},
+          {"is", "mesh"},
+          {"triangles", mesh.triangles.size()},
+          {"vertices", mesh.vertices.size()},
+          {"area", area},
+          {"bounds", box_json(box, Vec3::Zero())}};
 }
 
 Json world_info(const std::filesystem::path& file) {
@@ -102,7 +109,8 @@ std::string as_text(const Json& value) {
   std::string text;
   for (const auto& item : value.items()) {
     const char* between = value.is_object() ? ", " : item.value().is_number() ? " " : "; ";
-    text += (text.empty() ? "" : between) + (value.is_object() ? item.key() + " " : "") + as_text(item.value());
+    text += (text.empty() ? "" : between) + (value.is_object() ? item.key() + " " : "") +
+            as_text(item.value());
   }
   return text.empty() ? "none" : text;
 }
@@ -110,9 +118,15 @@ std::string as_text(const Json& value) {
 void run(const std::filesystem::path& file, bool json) {
   Json info;
   switch (kind_of(file)) {
-    case FileKind::scan: info = scan_info(file); break;
-    case FileKind::mesh: info = mesh_info(file); break;
-    case FileKind::world: info = world_info(file); break;
+    case FileKind::scan:
+      info = scan_info(file);
+      break;
+    case FileKind::mesh:
+      info = mesh_info(file);
+      break;
+    case FileKind::world:
+      info = world_info(file);
+      break;
   }
   if (json) return print_json(info);
   for (const auto& item : info.items()) {
@@ -131,7 +145,9 @@ void add_info(CLI::App& app) {
   };
   auto request = std::make_shared<Request>();
   CLI::App* verb = app.add_subcommand("info", "Tell what is in a scan, mesh or world");
-  verb->add_option("file", request->file, "A scan, a mesh, a world.json or its folder")->required()->type_name("FILE");
+  verb->add_option("file", request->file, "A scan, a mesh, a world.json or its folder")
+      ->required()
+      ->type_name("FILE");
   verb->add_flag("--json", request->json, "As JSON");
   verb->footer("Example:\n  scanworld info office.ply");
   verb->callback([request] { run(request->file, request->json); });

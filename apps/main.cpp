@@ -11,7 +11,8 @@
 
 namespace {
 
-constexpr const char* kFooter = R"(Exit codes: 0 done, 1 failure, 2 usage, 3 bad input, 4 nothing found, 5 world failed its check.
+constexpr const char* kFooter =
+    R"(Exit codes: 0 done, 1 failure, 2 usage, 3 bad input, 4 nothing found, 5 world failed its check.
 'scanworld VERB --help' tells more about a verb, with an example.)";
 
 int fail(int code, const std::string& message) {
@@ -23,7 +24,9 @@ int fail(int code, const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace scanworld;
-  CLI::App app("scanworld turns a 3D scan of a real place into a light, exact world to simulate in.", "scanworld");
+  CLI::App app(
+      "scanworld turns a 3D scan of a real place into a light, exact world to simulate in.",
+      "scanworld");
   app.set_version_flag("--version", std::string("scanworld ") + version());
   app.footer(kFooter);
   app.require_subcommand(1);

@@ -46,13 +46,16 @@ void run(Request request) {
   request.options.resolution = request.resolution_degrees * kDegree;
   request.options.lowest = request.lowest_degrees * kDegree;
   if (!request.poses.empty())
-    for (const Vec3& pose : read_poses(request.poses)) request.options.poses.push_back(pose - world.frame.origin);
+    for (const Vec3& pose : read_poses(request.poses))
+      request.options.poses.push_back(pose - world.frame.origin);
   const VirtualScan scan = virtual_scan(world, request.options);
   write_scan(request.out, scan.cloud);
   if (request.labels)
-    write_scan(labels_path(request.out), scan.cloud, {{"plane_id", scan.surface}, {"kind", scan.kind}, {"pose", scan.pose}});
+    write_scan(labels_path(request.out), scan.cloud,
+               {{"plane_id", scan.surface}, {"kind", scan.kind}, {"pose", scan.pose}});
   if (!request.save_poses.empty()) write_poses(request.save_poses, scan.cloud);
-  fmt::print("{}: {} points from {} poses\n", request.out.string(), grouped(scan.cloud.points.size()), scan.cloud.viewpoints.size());
+  fmt::print("{}: {} points from {} poses\n", request.out.string(),
+             grouped(scan.cloud.points.size()), scan.cloud.viewpoints.size());
 }
 
 }  // namespace
@@ -60,22 +63,40 @@ void run(Request request) {
 void add_scan(CLI::App& app) {
   auto request = std::make_shared<Request>();
   VirtualScanOptions& o = request->options;
-  CLI::App* verb = app.add_subcommand("scan", "Scan a world as a laser scanner would (a virtual scanner)");
-  verb->add_option("world", request->world, "A world.json or its folder")->required()->type_name("WORLD");
-  verb->add_option("-o,--out", request->out, "Scan to write: .ply, .xyz or .txt")->required()->type_name("SCAN");
-  verb->add_option("--poses", request->poses, "Scanner positions, one a line; without: they are chosen so as to see all over the floors")->type_name("F");
-  verb->add_option("--save-poses", request->save_poses, "Write the positions that were used")->type_name("F");
-  verb->add_option("--points", o.points, "Number of points; 0 = as the resolution gives")->capture_default_str();
-  verb->add_option("--resolution", request->resolution_degrees, "Degrees between neighbouring rays")->capture_default_str();
-  verb->add_option("--lowest", request->lowest_degrees, "Elevation in degrees that is seen down to")->capture_default_str();
+  CLI::App* verb =
+      app.add_subcommand("scan", "Scan a world as a laser scanner would (a virtual scanner)");
+  verb->add_option("world", request->world, "A world.json or its folder")
+      ->required()
+      ->type_name("WORLD");
+  verb->add_option("-o,--out", request->out, "Scan to write: .ply, .xyz or .txt")
+      ->required()
+      ->type_name("SCAN");
+  verb->add_option("--poses", request->poses,
+                   "Scanner positions, one a line; without: they are chosen so as to see all over "
+                   "the floors")
+      ->type_name("F");
+  verb->add_option("--save-poses", request->save_poses, "Write the positions that were used")
+      ->type_name("F");
+  verb->add_option("--points", o.points, "Number of points; 0 = as the resolution gives")
+      ->capture_default_str();
+  verb->add_option("--resolution", request->resolution_degrees, "Degrees between neighbouring rays")
+      ->capture_default_str();
+  verb->add_option("--lowest", request->lowest_degrees, "Elevation in degrees that is seen down to")
+      ->capture_default_str();
   verb->add_option("--max-range", o.max_range, "Farthest return [m]")->capture_default_str();
   verb->add_option("--noise", o.noise, "Standard deviation of a range [m]")->capture_default_str();
   verb->add_option("--outliers", o.outliers, "Share of stray points")->capture_default_str();
-  verb->add_option("--mixed", o.mixed, "Chance of a point between near and far at an edge")->capture_default_str();
+  verb->add_option("--mixed", o.mixed, "Chance of a point between near and far at an edge")
+      ->capture_default_str();
   verb->add_option("--seed", o.seed, "Another seed, other noise")->capture_default_str();
-  verb->add_flag("--labels", request->labels, "Also write SCAN.labels.ply: plane_id, kind (0 surface, 1 obstacle, 2 mixed, 3 outlier) and pose");
-  verb->add_option("--threads", request->threads, "Threads to use; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
-  verb->footer("Example:\n  scanworld scan worlds/office.json -o office.ply --points 300000 --noise 0.01");
+  verb->add_flag("--labels", request->labels,
+                 "Also write SCAN.labels.ply: plane_id, kind (0 surface, 1 obstacle, 2 mixed, 3 "
+                 "outlier) and pose");
+  verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  verb->footer(
+      "Example:\n  scanworld scan worlds/office.json -o office.ply --points 300000 --noise 0.01");
   verb->callback([request] { run(*request); });
 }
 

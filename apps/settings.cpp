@@ -3,7 +3,6 @@
 #include "settings.h"
 
 #include <fmt/format.h>
-
 #include <toml++/toml.h>
 
 #include "error.h"
@@ -20,7 +19,8 @@ std::string text_of(const toml::node& node) {
   return "(a list)";
 }
 
-void apply_table(const OptionList& options, const toml::table& table, const std::string& prefix, const std::string& file) {
+void apply_table(const OptionList& options, const toml::table& table, const std::string& prefix,
+                 const std::string& file) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
     if (const toml::table* inner = node.as_table()) {
@@ -42,7 +42,8 @@ void apply_config(ReconstructOptions& options, const std::filesystem::path& file
     const toml::table table = toml::parse_file(file.string());
     apply_table(list_options(options), table, "", file.string());
   } catch (const toml::parse_error& e) {
-    throw Error(Cause::bad_input, fmt::format("{}:{}: {}", file.string(), e.source().begin.line, e.description()));
+    throw Error(Cause::bad_input,
+                fmt::format("{}:{}: {}", file.string(), e.source().begin.line, e.description()));
   }
 }
 
@@ -50,16 +51,19 @@ void apply_assignments(ReconstructOptions& options, const std::vector<std::strin
   const OptionList list = list_options(options);
   for (const std::string& text : assignments) {
     const std::size_t at = text.find('=');
-    if (at == std::string::npos) throw Error(Cause::usage, fmt::format("--set {}: should be key=value", text));
+    if (at == std::string::npos)
+      throw Error(Cause::usage, fmt::format("--set {}: should be key=value", text));
     set_option(list, text.substr(0, at), text.substr(at + 1));
   }
 }
 
 std::string options_table() {
   ReconstructOptions defaults;
-  std::string table = fmt::format("{:<42} {:>8} {:<6} {}\n", "option", "default", "unit", "meaning");
+  std::string table =
+      fmt::format("{:<42} {:>8} {:<6} {}\n", "option", "default", "unit", "meaning");
   for (const Option& option : list_options(defaults))
-    table += fmt::format("{:<42} {:>8} {:<6} {}\n", option.name, scanworld::text_of(option.value()), option.unit, option.meaning);
+    table += fmt::format("{:<42} {:>8} {:<6} {}\n", option.name, scanworld::text_of(option.value()),
+                         option.unit, option.meaning);
   return table;
 }
 

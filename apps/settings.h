@@ -10,8 +10,9 @@
 
 namespace scanworld::cli {
 
-// Sets options from a TOML file: [thesis.filter] min_size = 0.1. Throws bad_input where it is no TOML, usage where an
-// option does not exist or has a value out of range, both naming file and line.
+// Sets options from a TOML file: [thesis.filter] min_size = 0.1. Throws bad_input where it is no
+// TOML, usage where an option does not exist or has a value out of range, both naming file and
+// line.
 void apply_config(ReconstructOptions& options, const std::filesystem::path& file);
 
 // Sets options from "key=value" texts. Throws usage.

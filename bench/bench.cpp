@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Times the stages of a reconstruction: scanworld_bench SCAN [RUNS]. Prints the median of each stage in
-// milliseconds, of CPU time too, then peak memory and the world's hash, which shows whether two builds
-// still make the same world.
+// Times the stages of a reconstruction: scanworld_bench SCAN [RUNS]. Prints the median of each
+// stage in milliseconds, of CPU time too, then peak memory and the world's hash, which shows
+// whether two builds still make the same world.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -28,8 +28,11 @@ void run(const char* path, int runs) {
   std::string hash;
   for (int i = 0; i < runs; ++i) {
     Report reading;
-    const PointCloud cloud = StageLog(reading, {}, 1).run("Reading", "files -> points", 1, [&] { return read_scan({path}); },
-                                                          [](const PointCloud& c) { return c.points.size(); });
+    const PointCloud cloud =
+        StageLog(reading, {}, 1)
+            .run(
+                "Reading", "files -> points", 1, [&] { return read_scan({path}); },
+                [](const PointCloud& c) { return c.points.size(); });
     ReconstructResult result = reconstruct(cloud);
     result.report.stages.insert(result.report.stages.begin(), reading.stages[0]);
     reports.push_back(result.report);
@@ -39,15 +42,17 @@ void run(const char* path, int runs) {
   fmt::print("{:<28} {:>10} {:>10} {:>12} {:>12}\n", "stage", "ms", "CPU ms", "in", "out");
   for (std::size_t s = 0; s < reports[0].stages.size(); ++s) {
     std::vector<double> wall, cpu;
-    for (const Report& report : reports) wall.push_back(report.stages[s].seconds), cpu.push_back(report.stages[s].cpu_seconds);
+    for (const Report& report : reports)
+      wall.push_back(report.stages[s].seconds), cpu.push_back(report.stages[s].cpu_seconds);
     const StageReport& stage = reports[0].stages[s];
-    fmt::print("{:<28} {:>10.2f} {:>10.2f} {:>12} {:>12}\n", stage.name, 1e3 * median(wall), 1e3 * median(cpu), stage.in, stage.out);
+    fmt::print("{:<28} {:>10.2f} {:>10.2f} {:>12} {:>12}\n", stage.name, 1e3 * median(wall),
+               1e3 * median(cpu), stage.in, stage.out);
     total += median(wall), total_cpu += median(cpu);
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  fmt::print("{:<28} {:>10.2f} {:>10.2f}\npeak memory {} MB, world hash {}\n", "all", 1e3 * total, 1e3 * total_cpu,
-             usage.ru_maxrss / 1024, hash);
+  fmt::print("{:<28} {:>10.2f} {:>10.2f}\npeak memory {} MB, world hash {}\n", "all", 1e3 * total,
+             1e3 * total_cpu, usage.ru_maxrss / 1024, hash);
 }
 
 }  // namespace

@@ -28,13 +28,15 @@ aiMesh* mesh_of(const ExportPart& part, unsigned material) {
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   mesh->mNumVertices = static_cast<unsigned>(part.mesh.vertices.size());
   mesh->mVertices = new aiVector3D[mesh->mNumVertices];
-  for (unsigned i = 0; i < mesh->mNumVertices; ++i) mesh->mVertices[i] = vector(part.mesh.vertices[i]);
+  for (unsigned i = 0; i < mesh->mNumVertices; ++i)
+    mesh->mVertices[i] = vector(part.mesh.vertices[i]);
   mesh->mNumFaces = static_cast<unsigned>(part.mesh.triangles.size());
   mesh->mFaces = new aiFace[mesh->mNumFaces];
   for (unsigned i = 0; i < mesh->mNumFaces; ++i) {
     mesh->mFaces[i].mNumIndices = 3;
     mesh->mFaces[i].mIndices = new unsigned[3];
-    for (std::size_t k = 0; k < 3; ++k) mesh->mFaces[i].mIndices[k] = static_cast<unsigned>(part.mesh.triangles[i][k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      mesh->mFaces[i].mIndices[k] = static_cast<unsigned>(part.mesh.triangles[i][k]);
   }
   return mesh;
 }
@@ -84,11 +86,14 @@ void fill_element(std::string& xml, const std::string& tag, const std::string& v
 
 }  // namespace
 
-void write_with_assimp(const std::filesystem::path& path, const World& world, const std::string& format) {
+void write_with_assimp(const std::filesystem::path& path, const World& world,
+                       const std::string& format) {
   const auto scene = scene_of(world);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format);
-  if (!blob) throw Error(Cause::failure, path.string() + ": assimp cannot write it: " + exporter.GetErrorString());
+  if (!blob)
+    throw Error(Cause::failure,
+                path.string() + ": assimp cannot write it: " + exporter.GetErrorString());
   std::string text(static_cast<const char*>(blob->data), blob->size);
   // The same world gives the same file: not the time of writing.
   for (const char* tag : {"created", "modified"}) fill_element(text, tag, "2000-01-01T00:00:00");
@@ -100,7 +105,8 @@ void write_with_assimp(const std::filesystem::path& path, const World& world, co
 Mesh read_mesh(const std::filesystem::path& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene =
+      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene) throw Error(Cause::bad_input, path.string() + ": " + importer.GetErrorString());
   Mesh mesh;
   std::map<std::array<ai_real, 3>, int> index_of;
@@ -111,7 +117,8 @@ Mesh read_mesh(const std::filesystem::path& path) {
       std::array<int, 3> triangle{};
       for (unsigned k = 0; k < 3; ++k) {
         const aiVector3D& v = part.mVertices[part.mFaces[f].mIndices[k]];
-        const auto [found, is_new] = index_of.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh.vertices.size()));
+        const auto [found, is_new] =
+            index_of.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh.vertices.size()));
         if (is_new) mesh.vertices.emplace_back(v.x, v.y, v.z);
         triangle[k] = found->second;
       }

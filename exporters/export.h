@@ -19,10 +19,13 @@ struct ExportFormat {
 
 const std::vector<ExportFormat>& export_formats();
 
-// The format of this name, or of the file's extension where the name is empty. Throws usage naming those that exist.
+// The format of this name, or of the file's extension where the name is empty. Throws usage naming
+// those that exist.
 const ExportFormat& export_format(const std::filesystem::path& path, const std::string& name = "");
 
-// Writes a world in the format of the file's extension, or in `format`. The file appears whole or not at all.
-void export_world(const World& world, const std::filesystem::path& path, const std::string& format = "");
+// Writes a world in the format of the file's extension, or in `format`. The file appears whole or
+// not at all.
+void export_world(const World& world, const std::filesystem::path& path,
+                  const std::string& format = "");
 
 }  // namespace scanworld

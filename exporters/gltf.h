@@ -8,8 +8,9 @@
 
 namespace scanworld {
 
-// Writes binary glTF 2.0 (GLB): a named node and mesh for each surface and obstacle, with its id in `extras`.
-// glTF is Y-up, so (x, y, z) is written as (x, z, -y), in the vertices themselves. Metres.
+// Writes binary glTF 2.0 (GLB): a named node and mesh for each surface and obstacle, with its id in
+// `extras`. glTF is Y-up, so (x, y, z) is written as (x, z, -y), in the vertices themselves.
+// Metres.
 void write_glb(const std::filesystem::path& path, const World& world);
 
 }  // namespace scanworld

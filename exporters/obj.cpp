@@ -23,7 +23,8 @@ std::string frame_comment(const Frame& frame) {
   std::string text = "# scanworld: metres";
   text += fmt::format(", up is {} {} {}", frame.up.x(), frame.up.y(), frame.up.z());
   if (!frame.origin.isZero())
-    text += fmt::format(", add {} {} {} to get the scan's coordinates", frame.origin.x(), frame.origin.y(), frame.origin.z());
+    text += fmt::format(", add {} {} {} to get the scan's coordinates", frame.origin.x(),
+                        frame.origin.y(), frame.origin.z());
   return text + "\n";
 }
 
@@ -37,15 +38,18 @@ void write_obj(const std::filesystem::path& path, const World& world) {
   std::set<std::string> known;
   for (const ExportPart& part : parts)
     if (known.insert(material_of(part)).second)
-      mtl += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", material_of(part), part.color.r / 255.0, part.color.g / 255.0, part.color.b / 255.0);
+      mtl += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", material_of(part),
+                         part.color.r / 255.0, part.color.g / 255.0, part.color.b / 255.0);
 
   std::string obj = frame_comment(world.frame);
   obj += fmt::format("mtllib {}\n", mtl_path.filename().string());
   int base = 1;
   for (const ExportPart& part : parts) {
     obj += fmt::format("o {}\nusemtl {}\n", part.name, material_of(part));
-    for (const Vec3& v : part.mesh.vertices) obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
-    for (const auto& t : part.mesh.triangles) obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
+    for (const Vec3& v : part.mesh.vertices)
+      obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
+    for (const auto& t : part.mesh.triangles)
+      obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
     base += static_cast<int>(part.mesh.vertices.size());
   }
 

@@ -8,8 +8,8 @@
 
 namespace scanworld {
 
-// Writes OBJ and, beside it under the same name, MTL: an object for each surface and obstacle, a material for each
-// colour. Metres, +Z up, which the format cannot say but in a comment.
+// Writes OBJ and, beside it under the same name, MTL: an object for each surface and obstacle, a
+// material for each colour. Metres, +Z up, which the format cannot say but in a comment.
 void write_obj(const std::filesystem::path& path, const World& world);
 
 }  // namespace scanworld

@@ -13,10 +13,14 @@ namespace scanworld {
 
 Color color_of(Kind kind) {
   switch (kind) {
-    case Kind::floor: return {168, 148, 122};
-    case Kind::ceiling: return {222, 222, 216};
-    case Kind::wall: return {190, 200, 208};
-    case Kind::other: return {120, 150, 175};
+    case Kind::floor:
+      return {168, 148, 122};
+    case Kind::ceiling:
+      return {222, 222, 216};
+    case Kind::wall:
+      return {190, 200, 208};
+    case Kind::other:
+      return {120, 150, 175};
   }
   return {};
 }
@@ -24,24 +28,32 @@ Color color_of(Kind kind) {
 std::vector<ExportPart> export_parts(const World& world) {
   std::vector<ExportPart> parts;
   for (const Surface& s : world.surfaces)
-    parts.push_back({fmt::format("{}_{}", name_of(s.kind), s.id), s.id, true, s.kind, s.color.value_or(color_of(s.kind)), {}});
+    parts.push_back({fmt::format("{}_{}", name_of(s.kind), s.id),
+                     s.id,
+                     true,
+                     s.kind,
+                     s.color.value_or(color_of(s.kind)),
+                     {}});
 
   const WorldMesh triangles = triangulate(world);
-  std::vector<std::map<int, int>> local(parts.size());  // of each part: vertex of the world -> of the part
+  std::vector<std::map<int, int>> local(
+      parts.size());  // of each part: vertex of the world -> of the part
   for (std::size_t t = 0; t < triangles.surface.size(); ++t) {
     const std::size_t part = static_cast<std::size_t>(triangles.surface[t]);
     Mesh& mesh = parts[part].mesh;
     std::array<int, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const int vertex = triangles.mesh.triangles[t][k];
-      const auto [found, is_new] = local[part].try_emplace(vertex, static_cast<int>(mesh.vertices.size()));
+      const auto [found, is_new] =
+          local[part].try_emplace(vertex, static_cast<int>(mesh.vertices.size()));
       if (is_new) mesh.vertices.push_back(world.vertices[static_cast<std::size_t>(vertex)]);
       triangle[k] = found->second;
     }
     mesh.triangles.push_back(triangle);
   }
   for (const Obstacle& o : world.obstacles)
-    parts.push_back({fmt::format("obstacle_{}", o.id), o.id, false, Kind::other, color_of(Kind::other), mesh_of(o, world.frame)});
+    parts.push_back({fmt::format("obstacle_{}", o.id), o.id, false, Kind::other,
+                     color_of(Kind::other), mesh_of(o, world.frame)});
   return parts;
 }
 

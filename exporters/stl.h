@@ -8,8 +8,8 @@
 
 namespace scanworld {
 
-// Writes all surfaces and obstacles as binary STL, metres, in the world's frame. The format has neither units,
-// names nor shared vertices.
+// Writes all surfaces and obstacles as binary STL, metres, in the world's frame. The format has
+// neither units, names nor shared vertices.
 void write_stl(const std::filesystem::path& path, const World& world);
 
 }  // namespace scanworld

@@ -29,7 +29,8 @@ fs::path beside(const fs::path& path, std::string_view what) {
   return path.parent_path() / fmt::format(".{}.{}-{}", path.filename().string(), what, ::getpid());
 }
 
-// "a/b/" and "a/b" are the same place; the path is made absolute so that a changed folder does not matter.
+// "a/b/" and "a/b" are the same place; the path is made absolute so that a changed folder does not
+// matter.
 fs::path place(const fs::path& path) {
   fs::path whole = fs::absolute(path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
@@ -41,7 +42,8 @@ std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".gz" && path.stem().has_extension() ? lower_extension(path.stem()) : extension;
+  return extension == ".gz" && path.stem().has_extension() ? lower_extension(path.stem())
+                                                           : extension;
 }
 
 OutputFile::OutputFile(fs::path path) : path_(place(path)), part_(beside(path_, "part")) {
@@ -79,11 +81,14 @@ OutputFolder::OutputFolder(fs::path path, std::string_view mark)
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status)) {
-    if (!fs::is_directory(status)) fail_at(path_, "writing the folder", "there is a file of this name");
+    if (!fs::is_directory(status))
+      fail_at(path_, "writing the folder", "there is a file of this name");
     const bool empty = fs::is_empty(path_, error);
     if (!empty && !fs::exists(path_ / mark, error))
-      fail_at(path_, "writing the folder", fmt::format("it holds other files and no {}; not replaced", mark));
-    if (::access(path_.c_str(), W_OK) != 0) fail_at(path_, "writing the folder", std::strerror(errno));
+      fail_at(path_, "writing the folder",
+              fmt::format("it holds other files and no {}; not replaced", mark));
+    if (::access(path_.c_str(), W_OK) != 0)
+      fail_at(path_, "writing the folder", std::strerror(errno));
   }
   fs::create_directories(path_.parent_path(), error);
   if (error) fail_at(path_.parent_path(), "making the folder", error.message());
@@ -98,7 +103,8 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::commit() {
-  // Where there is an older folder, the two change places in one step; the older one is then removed.
+  // Where there is an older folder, the two change places in one step; the older one is then
+  // removed.
   std::error_code error;
   if (fs::exists(path_, error)) {
     if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) return;
@@ -106,8 +112,10 @@ void OutputFolder::commit() {
     fs::rename(path_, old, error);
     if (error) fail_at(path_, "replacing the folder", error.message());
     fs::rename(part_, path_, error);
-    if (error) fs::rename(old, path_);
-    else fs::remove_all(old, error);
+    if (error)
+      fs::rename(old, path_);
+    else
+      fs::remove_all(old, error);
     return;
   }
   fs::rename(part_, path_, error);

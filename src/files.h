@@ -10,11 +10,13 @@
 
 namespace scanworld {
 
-// The extension of a file name in lower case, with its dot: ".ply"; that before it where it is ".gz".
+// The extension of a file name in lower case, with its dot: ".ply"; that before it where it is
+// ".gz".
 std::string lower_extension(const std::filesystem::path& path);
 
-// A file that appears whole or not at all: it is written beside its place and moved there by commit().
-// Without commit() nothing is left. Throws failure naming the file where it cannot be written.
+// A file that appears whole or not at all: it is written beside its place and moved there by
+// commit(). Without commit() nothing is left. Throws failure naming the file where it cannot be
+// written.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);
@@ -37,8 +39,8 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
-// A folder that appears whole or not at all. It takes the place of an older folder only where that one holds
-// nothing or a file named `mark`, so that no folder is lost by a slip of the keyboard.
+// A folder that appears whole or not at all. It takes the place of an older folder only where that
+// one holds nothing or a file named `mark`, so that no folder is lost by a slip of the keyboard.
 class OutputFolder {
  public:
   // Throws failure where the place is taken by something else or cannot be written to.

@@ -50,26 +50,35 @@ OptionValue Option::value() const {
 }
 
 void set_option(const OptionList& options, const std::string& name, const std::string& text) {
-  const auto option = std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
+  const auto option =
+      std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
   if (option == options.end()) {
-    const auto like = std::min_element(options.begin(), options.end(), [&](const Option& a, const Option& b) {
-      return edit_distance(a.name, name) < edit_distance(b.name, name);
-    });
-    fail(fmt::format("there is no option '{}'{}", name,
-                     like == options.end() ? "" : fmt::format("; the nearest is '{}'", like->name)));
+    const auto like =
+        std::min_element(options.begin(), options.end(), [&](const Option& a, const Option& b) {
+          return edit_distance(a.name, name) < edit_distance(b.name, name);
+        });
+    fail(
+        fmt::format("there is no option '{}'{}", name,
+                    like == options.end() ? "" : fmt::format("; the nearest is '{}'", like->name)));
   }
   if (const auto* b = std::get_if<bool*>(&option->field)) {
-    if (text != "true" && text != "false") fail(fmt::format("option {}: '{}' is not true or false", name, text));
+    if (text != "true" && text != "false")
+      fail(fmt::format("option {}: '{}' is not true or false", name, text));
     **b = text == "true";
     return;
   }
   const bool whole = std::holds_alternative<int*>(option->field);
-  const double value = whole ? parse<int>(name, text, "a whole number") : parse<double>(name, text, "a number");
+  const double value =
+      whole ? parse<int>(name, text, "a whole number") : parse<double>(name, text, "a number");
   if (!(value >= option->min && value <= option->max))
     fail(fmt::format("option {}: {} is not from {} to {}", name, text, option->min,
-                     option->max == std::numeric_limits<double>::max() ? "any size" : fmt::to_string(option->max)));
-  if (whole) **std::get_if<int*>(&option->field) = static_cast<int>(value);
-  else **std::get_if<double*>(&option->field) = value;
+                     option->max == std::numeric_limits<double>::max()
+                         ? "any size"
+                         : fmt::to_string(option->max)));
+  if (whole)
+    **std::get_if<int*>(&option->field) = static_cast<int>(value);
+  else
+    **std::get_if<double*>(&option->field) = value;
 }
 
 std::string text_of(const OptionValue& value) {

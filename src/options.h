@@ -13,8 +13,8 @@ namespace scanworld {
 
 using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
 
-// The name, unit and meaning of a field of an options struct, so that a command line, a file or a report can
-// get at it. The struct itself holds the default.
+// The name, unit and meaning of a field of an options struct, so that a command line, a file or a
+// report can get at it. The struct itself holds the default.
 struct Option {
   std::string name;  // with the path to it: "thesis.filter.min_size"
   std::variant<bool*, int*, double*> field;
@@ -26,8 +26,8 @@ struct Option {
 };
 using OptionList = std::vector<Option>;
 
-// Sets an option from text. Throws usage naming the option and the value where there is none of this name (and
-// which ones are alike), or where the value is no number or out of range.
+// Sets an option from text. Throws usage naming the option and the value where there is none of
+// this name (and which ones are alike), or where the value is no number or out of range.
 void set_option(const OptionList& options, const std::string& name, const std::string& value);
 
 std::string text_of(const OptionValue& value);

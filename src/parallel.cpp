@@ -11,7 +11,8 @@
 namespace scanworld {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  // Which exception TBB passes on depends on timing, so each is caught here and the first by index kept.
+  // Which exception TBB passes on depends on timing, so each is caught here and the first by index
+  // kept.
   std::mutex mutex;
   std::exception_ptr error;
   std::size_t error_at = count;

@@ -8,9 +8,9 @@
 
 namespace scanworld {
 
-// Calls body(i) once for each i in [0, count), in any order, on any thread. Each call writes what belongs to
-// its own i alone; sums are made afterwards, in the order of i, so that threads cannot change a result.
-// The exception of the smallest i that threw is thrown again.
+// Calls body(i) once for each i in [0, count), in any order, on any thread. Each call writes what
+// belongs to its own i alone; sums are made afterwards, in the order of i, so that threads cannot
+// change a result. The exception of the smallest i that threw is thrown again.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 // A range [begin, end) of items, one of the parts that a large array is worked on in.
@@ -18,8 +18,11 @@ struct Part {
   std::size_t begin, end;
 };
 
-// Splits [0, count) into parts of `size` items (the last one smaller), whatever the number of threads.
-inline std::size_t part_count(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
+// Splits [0, count) into parts of `size` items (the last one smaller), whatever the number of
+// threads.
+inline std::size_t part_count(std::size_t count, std::size_t size) {
+  return (count + size - 1) / size;
+}
 inline Part part_of(std::size_t i, std::size_t count, std::size_t size) {
   return {i * size, (i + 1) * size < count ? (i + 1) * size : count};
 }

@@ -7,8 +7,8 @@
 
 namespace scanworld {
 
-// Told, on the caller's thread, that `fraction` (0 to 1) of the whole is done and `stage` comes next.
-// To cancel, throw from it: stages are pure, so nothing is left half-done.
+// Told, on the caller's thread, that `fraction` (0 to 1) of the whole is done and `stage` comes
+// next. To cancel, throw from it: stages are pure, so nothing is left half-done.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 }  // namespace scanworld

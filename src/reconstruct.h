@@ -38,7 +38,8 @@ OptionList list_options(ReconstructOptions& options);
 // The names of the presets.
 const std::vector<std::string>& preset_names();
 
-// The preset that suits a scan where none is asked for: rgbd for a depth camera's image, else indoor.
+// The preset that suits a scan where none is asked for: rgbd for a depth camera's image, else
+// indoor.
 std::string preset_for(const PointCloud& cloud);
 
 // Changes options for a kind of scan. Throws usage where there is no preset of this name.

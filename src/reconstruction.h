@@ -9,7 +9,8 @@
 
 namespace scanworld {
 
-// The class of the thesis (its section 9.1): a small face over the free functions, for a first look.
+// The class of the thesis (its section 9.1): a small face over the free functions, for a first
+// look.
 //
 //   Reconstruction recon;
 //   recon.load_points("with_floor3.txt");

@@ -42,12 +42,15 @@ class StageLog {
   // Runs `body` and returns what it returns; `count` says how much that is.
   template <typename Body, typename Count>
   auto run(std::string_view name, std::string_view what, std::size_t in, Body body, Count count) {
-    if (progress_) progress_(name, static_cast<double>(report_.stages.size()) / static_cast<double>(stages_));
+    if (progress_)
+      progress_(name, static_cast<double>(report_.stages.size()) / static_cast<double>(stages_));
     const auto start = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds();
     auto result = body();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report_.stages.push_back({std::string(name), seconds, cpu_seconds() - cpu, in, count(result), std::string(what)});
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report_.stages.push_back(
+        {std::string(name), seconds, cpu_seconds() - cpu, in, count(result), std::string(what)});
     return result;
   }
   template <typename Body>

@@ -3,8 +3,9 @@
 //
 // The value types that stages pass to each other.
 //
-// Units: metres, radians, seconds, kilograms. Axes: right-handed, +Z up. Numbers are double; points of
-// a scan are stored as float, relative to an origin that is kept in double (see PointCloud::origin).
+// Units: metres, radians, seconds, kilograms. Axes: right-handed, +Z up. Numbers are double; points
+// of a scan are stored as float, relative to an origin that is kept in double (see
+// PointCloud::origin).
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +30,8 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
-// The points x with normal·x + offset = 0, |normal| = 1. A surface's normal points to its free side.
+// The points x with normal·x + offset = 0, |normal| = 1. A surface's normal points to its free
+// side.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
   double offset = 0;  // [m]
@@ -53,8 +55,8 @@ struct PlaneFrame {
   Vec3 to_space(const Vec2& p) const { return origin + u * p.x() + v * p.y(); }
 };
 
-// The frame of `plane` whose origin is the point of the plane nearest to `near`. It depends on nothing else,
-// so that equal planes have equal frames.
+// The frame of `plane` whose origin is the point of the plane nearest to `near`. It depends on
+// nothing else, so that equal planes have equal frames.
 inline PlaneFrame frame_of(const Plane& plane, const Vec3& near = Vec3::Zero()) {
   // The axis least aligned with the normal gives the best conditioned cross product.
   int axis = 0;
@@ -65,13 +67,15 @@ inline PlaneFrame frame_of(const Plane& plane, const Vec3& near = Vec3::Zero()) 
 
 // A scan. Every point is finite.
 struct PointCloud {
-  std::vector<Vec3f> points;        // relative to `origin`
-  std::vector<Vec3f> normals;       // unit vectors; empty, or one for each point
-  std::vector<Color> colors;        // empty, or one for each point
-  Vec3 origin = Vec3::Zero();       // [m] what was subtracted from the coordinates in the file
-  std::vector<Vec3> viewpoints;     // scanner positions relative to `origin`, where they are known
-  std::vector<std::size_t> skipped; // ascending positions in the input of points left out as not finite
-  bool camera_frame = false;        // the points are one image of a pinhole camera: x right, y down, z ahead
+  std::vector<Vec3f> points;     // relative to `origin`
+  std::vector<Vec3f> normals;    // unit vectors; empty, or one for each point
+  std::vector<Color> colors;     // empty, or one for each point
+  Vec3 origin = Vec3::Zero();    // [m] what was subtracted from the coordinates in the file
+  std::vector<Vec3> viewpoints;  // scanner positions relative to `origin`, where they are known
+  std::vector<std::size_t>
+      skipped;  // ascending positions in the input of points left out as not finite
+  bool camera_frame =
+      false;  // the points are one image of a pinhole camera: x right, y down, z ahead
 
   std::size_t input_size() const { return points.size() + skipped.size(); }
 };
@@ -90,8 +94,8 @@ struct Support {
   bool operator==(const Support&) const = default;
 };
 
-// A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the plane's normal,
-// which points to the free side; holes clockwise.
+// A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the
+// plane's normal, which points to the free side; holes clockwise.
 struct FoundSurface {
   Plane plane;
   std::vector<Vec3> outer;

@@ -32,8 +32,8 @@ bool is_camera_image(const PointCloud& cloud, std::uint64_t width) {
     across.add(static_cast<double>(pixel % width), p.x() / p.z());
     down.add(static_cast<double>(pixel / width), p.y() / p.z());
   }
-  return across.n > 100 && across.unexplained() < 0.01 && down.unexplained() < 0.01 && across.slope() > 0 &&
-         down.slope() > 0;
+  return across.n > 100 && across.unexplained() < 0.01 && down.unexplained() < 0.01 &&
+         across.slope() > 0 && down.slope() > 0;
 }
 
 }  // namespace scanworld

@@ -71,7 +71,8 @@ InputFile::InputFile(const std::filesystem::path& path) : path_(path) {
   const bool known = ::fstat(fd_, &info) == 0;
   if (!known || !S_ISREG(info.st_mode)) {
     ::close(fd_);
-    fail(name(), known && S_ISDIR(info.st_mode) ? "is a folder, not a file" : "is not a regular file");
+    fail(name(),
+         known && S_ISDIR(info.st_mode) ? "is a folder, not a file" : "is not a regular file");
   }
   size_ = static_cast<std::uint64_t>(info.st_size);
 }
@@ -84,7 +85,8 @@ std::size_t InputFile::read_some(std::uint64_t offset, void* to, std::size_t cou
     const ssize_t n = ::pread(fd_, static_cast<char*>(to) + done, count - done,
                               static_cast<off_t>(offset + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(name(), fmt::format("reading at byte {}: {}", offset + done, std::strerror(errno)));
+    if (n < 0)
+      fail(name(), fmt::format("reading at byte {}: {}", offset + done, std::strerror(errno)));
     if (n == 0) break;
     done += static_cast<std::size_t>(n);
   }
@@ -99,7 +101,8 @@ void InputFile::read(std::uint64_t offset, void* to, std::size_t count) const {
 
 std::unique_ptr<ByteStream> open_stream(const std::filesystem::path& path) {
   unsigned char magic[2] = {};
-  const bool gzip = InputFile(path).read_some(0, magic, 2) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
+  const bool gzip =
+      InputFile(path).read_some(0, magic, 2) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
   if (gzip) return std::make_unique<GzipStream>(path);
   return std::make_unique<FileStream>(path);
 }

@@ -10,7 +10,7 @@
 
 #include "../error.h"
 #include "records.h"
-#include "text.h"
+#include "text_rows.h"
 
 namespace scanworld {
 
@@ -63,7 +63,8 @@ class HeaderReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(Cause::bad_input, fmt::format("{}:{}: {}", lines_.name(), lines_.line_number(), what));
+    throw Error(Cause::bad_input,
+                fmt::format("{}:{}: {}", lines_.name(), lines_.line_number(), what));
   }
 
   void read_entry(const std::string& key, std::istream& words) {
@@ -97,21 +98,24 @@ class HeaderReader {
   std::uint64_t read_count(std::istream& words, std::uint64_t at_most) const {
     std::string word;
     words >> word;
-    double value = -1;
-    word += '\n';
-    if (!parse_number(word.data(), word.data() + word.size(), value) || value < 0 || value != std::floor(value) ||
-        value > static_cast<double>(at_most) || value > 1e18)
-      fail(fmt::format("'{}' is no number from 0 to {}", word.substr(0, std::min<std::size_t>(40, word.size() - 1)), at_most));
+    const double value = number_of(word).value_or(-1);
+    if (!(value >= 0 && value == std::floor(value) && value <= static_cast<double>(at_most) &&
+          value <= 1e18))
+      fail(fmt::format("'{}' is no number from 0 to {}", word.substr(0, 40), at_most));
     return static_cast<std::uint64_t>(value);
   }
 
   void read_encoding(std::istream& words) {
     std::string name;
     words >> name;
-    if (name == "ascii") header_.encoding = Encoding::ascii;
-    else if (name == "binary") header_.encoding = Encoding::binary;
-    else if (name == "binary_compressed") header_.encoding = Encoding::binary_compressed;
-    else fail(fmt::format("unknown PCD data format '{}'", name.substr(0, 40)));
+    if (name == "ascii")
+      header_.encoding = Encoding::ascii;
+    else if (name == "binary")
+      header_.encoding = Encoding::binary;
+    else if (name == "binary_compressed")
+      header_.encoding = Encoding::binary_compressed;
+    else
+      fail(fmt::format("unknown PCD data format '{}'", name.substr(0, 40)));
   }
 
   Header finish() {
@@ -119,7 +123,8 @@ class HeaderReader {
     if (header_.record_size() == 0) fail("the fields have no bytes");
     if (header_.record_size() > kLongestRecord) fail("a point has too many bytes");
     if (!header_.has_points) {
-      if (header_.height > 0 && header_.width > UINT64_MAX / header_.height) fail("WIDTH times HEIGHT is too large");
+      if (header_.height > 0 && header_.width > UINT64_MAX / header_.height)
+        fail("WIDTH times HEIGHT is too large");
       header_.points = header_.width * header_.height;
     }
     return header_;
@@ -132,9 +137,10 @@ class HeaderReader {
 NumberType number_type(const PcdField& field, const std::string& name) {
   const std::string code = field.type + std::to_string(field.size);
   static const std::pair<const char*, NumberType> types[] = {
-      {"I1", NumberType::i8},  {"U1", NumberType::u8},  {"I2", NumberType::i16}, {"U2", NumberType::u16},
-      {"I4", NumberType::i32}, {"U4", NumberType::u32}, {"I8", NumberType::i64}, {"U8", NumberType::u64},
-      {"F4", NumberType::f32}, {"F8", NumberType::f64}};
+      {"I1", NumberType::i8},  {"U1", NumberType::u8},  {"I2", NumberType::i16},
+      {"U2", NumberType::u16}, {"I4", NumberType::i32}, {"U4", NumberType::u32},
+      {"I8", NumberType::i64}, {"U8", NumberType::u64}, {"F4", NumberType::f32},
+      {"F8", NumberType::f64}};
   for (const auto& [known, type] : types)
     if (code == known) return type;
   throw Error(Cause::bad_input,
@@ -146,15 +152,18 @@ std::vector<Role> field_roles(const Header& header, const std::string& name) {
   for (const PcdField& f : header.fields) {
     Role role = f.count == 1 ? role_of(f.name) : Role::none;
     if (role == Role::packed_rgb) {
-      if (f.size != 4) role = Role::none;
-      else if (f.type == 'F') role = Role::packed_rgb_float;
+      if (f.size != 4)
+        role = Role::none;
+      else if (f.type == 'F')
+        role = Role::packed_rgb_float;
     }
     roles.push_back(role);
   }
   return usable_roles(std::move(roles), name, "the fields");
 }
 
-// The fields of records that lie one after the other (stride = record), or of whole columns (stride = value).
+// The fields of records that lie one after the other (stride = record), or of whole columns (stride
+// = value).
 RecordLayout binary_layout(const Header& header, const std::string& name, bool columns) {
   const std::vector<Role> roles = field_roles(header, name);
   RecordLayout layout{.count = header.points};
@@ -162,7 +171,8 @@ RecordLayout binary_layout(const Header& header, const std::string& name, bool c
   for (std::size_t i = 0; i < roles.size(); ++i) {
     const PcdField& f = header.fields[i];
     if (roles[i] != Role::none)
-      layout.fields.push_back({roles[i], number_type(f, name), offset * (columns ? header.points : 1),
+      layout.fields.push_back({roles[i], number_type(f, name),
+                               offset * (columns ? header.points : 1),
                                columns ? f.bytes() : header.record_size()});
     offset += f.bytes();
   }
@@ -171,8 +181,8 @@ RecordLayout binary_layout(const Header& header, const std::string& name, bool c
 
 void check_length(const std::string& name, std::uint64_t points, std::uint64_t room) {
   if (points > room)
-    throw Error(Cause::bad_input,
-                fmt::format("{}: promises {} points, but has room for {} at most", name, points, room));
+    throw Error(Cause::bad_input, fmt::format("{}: promises {} points, but has room for {} at most",
+                                              name, points, room));
 }
 
 RowSource open_ascii(LineReader& lines, const Header& header) {
@@ -180,7 +190,8 @@ RowSource open_ascii(LineReader& lines, const Header& header) {
   TextLayout layout{.rows = header.points};
   for (std::size_t i = 0; i < roles.size(); ++i) {
     layout.columns.push_back(roles[i]);
-    layout.columns.insert(layout.columns.end(), header.fields[i].count > 1 ? header.fields[i].count - 1 : 0, Role::none);
+    layout.columns.insert(layout.columns.end(),
+                          header.fields[i].count > 1 ? header.fields[i].count - 1 : 0, Role::none);
   }
   check_length(lines.name(), header.points, (lines.at_most_left() / 2 + 1) / layout.columns.size());
   return rows_in_memory(lines.name(), read_text_rows(lines, layout));
@@ -195,20 +206,24 @@ RowSource open_binary(const LineReader& lines, const Header& header) {
 
 RowSource open_compressed(const LineReader& lines, const Header& header) {
   const InputFile file(lines.name());
-  const auto fail = [&](const std::string& what) { throw Error(Cause::bad_input, file.name() + ": " + what); };
+  const auto fail = [&](const std::string& what) {
+    throw Error(Cause::bad_input, file.name() + ": " + what);
+  };
   std::uint32_t sizes[2] = {};  // compressed, uncompressed
   if (file.size() < lines.offset() + sizeof(sizes)) fail("ends before its compressed data");
   file.read(lines.offset(), sizes, sizeof(sizes));
   const std::uint64_t begin = lines.offset() + sizeof(sizes);
   if (sizes[0] > file.size() - begin)
-    fail(fmt::format("promises {} bytes of compressed data, but has {}", sizes[0], file.size() - begin));
+    fail(fmt::format("promises {} bytes of compressed data, but has {}", sizes[0],
+                     file.size() - begin));
   check_length(file.name(), header.points, sizes[1] / header.record_size());
   // LZF makes at most 264 bytes of 3: what claims more is damaged, and must not cost us the memory.
   if (sizes[1] / 88 > std::uint64_t{sizes[0]} + 1)
     fail(fmt::format("{} bytes cannot hold {} bytes compressed", sizes[0], sizes[1]));
   std::vector<char> packed(sizes[0]), bytes(sizes[1]);
   file.read(begin, packed.data(), packed.size());
-  if (header.points > 0 && lzf_decompress(packed.data(), sizes[0], bytes.data(), sizes[1]) != sizes[1])
+  if (header.points > 0 &&
+      lzf_decompress(packed.data(), sizes[0], bytes.data(), sizes[1]) != sizes[1])
     fail(fmt::format("the compressed data at byte {} are damaged", begin));
   return record_rows(file.name(), std::move(bytes), binary_layout(header, file.name(), true));
 }
@@ -219,13 +234,14 @@ RowSource open_pcd(const std::filesystem::path& path) {
   LineReader lines(path);
   const Header header = HeaderReader(lines).read();
   if (lines.gzipped() && header.encoding != Encoding::ascii)
-    throw Error(Cause::bad_input,
-                lines.name() + ": binary PCD in gzip is not supported; unpack it with gunzip first");
+    throw Error(
+        Cause::bad_input,
+        lines.name() + ": binary PCD in gzip is not supported; unpack it with gunzip first");
   RowSource rows = header.encoding == Encoding::ascii    ? open_ascii(lines, header)
                    : header.encoding == Encoding::binary ? open_binary(lines, header)
                                                          : open_compressed(lines, header);
-  const bool organised = header.height > 1 && header.width > 1 &&
-                         header.points / header.height == header.width;
+  const bool organised =
+      header.height > 1 && header.width > 1 && header.points / header.height == header.width;
   if (organised) rows.image_width = header.width;
   if (header.viewpoint.size() == 7) {
     const std::vector<double>& v = header.viewpoint;

@@ -12,7 +12,7 @@
 
 #include "../error.h"
 #include "records.h"
-#include "text.h"
+#include "text_rows.h"
 
 namespace scanworld {
 
@@ -56,16 +56,21 @@ class HeaderReader {
 
   Header read() {
     std::string line;
-    if (!lines_.next_line(line) || line != "ply") fail("is not a PLY file: the first line is not 'ply'");
+    if (!lines_.next_line(line) || line != "ply")
+      fail("is not a PLY file: the first line is not 'ply'");
     bool has_format = false;
     while (lines_.next_line(line)) {
       std::istringstream words(line);
       std::string word;
       words >> word;
-      if (word == "format") read_format(words), has_format = true;
-      else if (word == "element") read_element(words);
-      else if (word == "property") read_property(words);
-      else if (word == "end_header") return has_format ? header_ : (fail("has no format line"), header_);
+      if (word == "format")
+        read_format(words), has_format = true;
+      else if (word == "element")
+        read_element(words);
+      else if (word == "property")
+        read_property(words);
+      else if (word == "end_header")
+        return has_format ? header_ : (fail("has no format line"), header_);
       else if (!word.empty() && word != "comment" && word != "obj_info")
         fail(fmt::format("'{}' is no PLY header line", word.substr(0, 40)));
       if (lines_.line_number() > 10000) fail("the header has no end");
@@ -75,7 +80,8 @@ class HeaderReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(Cause::bad_input, fmt::format("{}:{}: {}", lines_.name(), lines_.line_number(), what));
+    throw Error(Cause::bad_input,
+                fmt::format("{}:{}: {}", lines_.name(), lines_.line_number(), what));
   }
 
   void read_format(std::istream& words) {
@@ -94,7 +100,8 @@ class HeaderReader {
     Element element;
     std::string count;
     words >> element.name >> count;
-    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    const auto [end, error] =
+        std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (count.empty() || error != std::errc() || end != count.data() + count.size())
       fail(fmt::format("'{}' is no number of elements", count.substr(0, 40)));
     header_.elements.push_back(element);
@@ -117,11 +124,11 @@ class HeaderReader {
 
   NumberType number_type(const std::string& name) const {
     static const std::map<std::string, NumberType> types = {
-        {"char", NumberType::i8},   {"int8", NumberType::i8},     {"uchar", NumberType::u8},
-        {"uint8", NumberType::u8},  {"short", NumberType::i16},   {"int16", NumberType::i16},
-        {"ushort", NumberType::u16}, {"uint16", NumberType::u16}, {"int", NumberType::i32},
-        {"int32", NumberType::i32}, {"uint", NumberType::u32},    {"uint32", NumberType::u32},
-        {"float", NumberType::f32}, {"float32", NumberType::f32}, {"double", NumberType::f64},
+        {"char", NumberType::i8},    {"int8", NumberType::i8},     {"uchar", NumberType::u8},
+        {"uint8", NumberType::u8},   {"short", NumberType::i16},   {"int16", NumberType::i16},
+        {"ushort", NumberType::u16}, {"uint16", NumberType::u16},  {"int", NumberType::i32},
+        {"int32", NumberType::i32},  {"uint", NumberType::u32},    {"uint32", NumberType::u32},
+        {"float", NumberType::f32},  {"float32", NumberType::f32}, {"double", NumberType::f64},
         {"float64", NumberType::f64}};
     const auto found = types.find(name);
     if (found == types.end()) fail(fmt::format("unknown PLY type '{}'", name.substr(0, 40)));
@@ -136,16 +143,20 @@ std::vector<Role> vertex_roles(const Element& vertex, const std::string& name) {
   std::vector<Role> roles;
   for (const Property& p : vertex.properties) {
     if (p.list_count)
-      throw Error(Cause::bad_input, fmt::format("{}: vertex property '{}' is a list; points with lists "
-                                                "are not supported", name, p.name));
+      throw Error(Cause::bad_input,
+                  fmt::format("{}: vertex property '{}' is a list; points with lists "
+                              "are not supported",
+                              name, p.name));
     roles.push_back(role_of(p.name));
   }
   return usable_roles(std::move(roles), name, "the vertices");
 }
 
-[[noreturn]] void fail_truncated(const std::string& name, const Element& element, std::uint64_t have) {
-  throw Error(Cause::bad_input, fmt::format("{}: promises {} of element '{}', but has room for {} at most",
-                                            name, element.count, element.name, have));
+[[noreturn]] void fail_truncated(const std::string& name, const Element& element,
+                                 std::uint64_t have) {
+  throw Error(Cause::bad_input,
+              fmt::format("{}: promises {} of element '{}', but has room for {} at most", name,
+                          element.count, element.name, have));
 }
 
 RowSource open_ascii(LineReader& lines, const Header& header, std::size_t vertex_at) {
@@ -162,7 +173,8 @@ RowSource open_ascii(LineReader& lines, const Header& header, std::size_t vertex
 }
 
 // The first byte after `element`, whose first is at `begin`.
-std::uint64_t skip_binary(const InputFile& file, const Element& element, std::uint64_t begin, bool big_endian) {
+std::uint64_t skip_binary(const InputFile& file, const Element& element, std::uint64_t begin,
+                          bool big_endian) {
   if (!element.has_list()) {
     const std::uint64_t size = element.record_size(), left = file.size() - begin;
     if (size > 0 && element.count > left / size) fail_truncated(file.name(), element, left / size);
@@ -191,16 +203,19 @@ std::uint64_t skip_binary(const InputFile& file, const Element& element, std::ui
 
 RowSource open_binary(const LineReader& lines, const Header& header, std::size_t vertex_at) {
   if (lines.gzipped())
-    throw Error(Cause::bad_input,
-                lines.name() + ": binary PLY in gzip is not supported; unpack it with gunzip first");
+    throw Error(
+        Cause::bad_input,
+        lines.name() + ": binary PLY in gzip is not supported; unpack it with gunzip first");
   const auto file = std::make_shared<const InputFile>(lines.name());
   const bool big_endian = header.encoding == Encoding::big_endian;
   std::uint64_t begin = lines.offset();
-  for (std::size_t e = 0; e < vertex_at; ++e) begin = skip_binary(*file, header.elements[e], begin, big_endian);
+  for (std::size_t e = 0; e < vertex_at; ++e)
+    begin = skip_binary(*file, header.elements[e], begin, big_endian);
 
   const Element& vertex = header.elements[vertex_at];
   const std::vector<Role> roles = vertex_roles(vertex, lines.name());
-  skip_binary(*file, vertex, begin, big_endian);  // throws where the file is too short for all vertices
+  skip_binary(*file, vertex, begin,
+              big_endian);  // throws where the file is too short for all vertices
   RecordLayout layout{.count = vertex.count, .big_endian = big_endian};
   std::uint64_t offset = 0;
   for (std::size_t i = 0; i < roles.size(); ++i) {

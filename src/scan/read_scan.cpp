@@ -14,7 +14,7 @@
 #include "pcd.h"
 #include "ply.h"
 #include "rows.h"
-#include "text.h"
+#include "text_rows.h"
 #include "xyz.h"
 
 namespace scanworld {
@@ -42,11 +42,13 @@ std::string scan_format(const std::filesystem::path& path) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return "ply";
   if (bytes == "# .PC") return "pcd";
   throw Error(Cause::bad_input,
-              fmt::format("{}: not a scan format that is known (PLY, PCD, XYZ, TXT, CSV, ASC, PTS)", path.string()));
+              fmt::format("{}: not a scan format that is known (PLY, PCD, XYZ, TXT, CSV, ASC, PTS)",
+                          path.string()));
 }
 
 RowSource open_scan(const std::filesystem::path& path) {
-  if (InputFile(path).size() == 0) throw Error(Cause::bad_input, path.string() + ": the file is empty");
+  if (InputFile(path).size() == 0)
+    throw Error(Cause::bad_input, path.string() + ": the file is empty");
   const std::string format = scan_format(path);
   if (format == "ply") return open_ply(path);
   if (format == "pcd") return open_pcd(path);
@@ -69,18 +71,22 @@ std::vector<Vec3> read_poses(const std::filesystem::path& path) {
     if (is_comment(line)) continue;
     std::vector<double> v;
     for (std::string_view word : split_columns(line)) {
-      const std::string text = std::string(word) + '\n';
-      if (!parse_number(text.data(), text.data() + text.size(), v.emplace_back()))
-        throw Error(Cause::bad_input,
-                    fmt::format("{}:{}: '{}' is not a number", lines.name(), lines.line_number(), word.substr(0, 40)));
+      const auto value = number_of(word);
+      if (!value)
+        throw Error(Cause::bad_input, fmt::format("{}:{}: '{}' is not a number", lines.name(),
+                                                  lines.line_number(), word.substr(0, 40)));
+      v.push_back(*value);
     }
     if (v.size() != 3 && v.size() != 8)
-      throw Error(Cause::bad_input, fmt::format("{}:{}: a pose has 3 numbers (x y z) or 8 (t x y z qx qy qz qw), not {}",
-                                                lines.name(), lines.line_number(), v.size()));
+      throw Error(
+          Cause::bad_input,
+          fmt::format("{}:{}: a pose has 3 numbers (x y z) or 8 (t x y z qx qy qz qw), not {}",
+                      lines.name(), lines.line_number(), v.size()));
     const std::size_t at = v.size() == 8 ? 1 : 0;
     poses.emplace_back(v[at], v[at + 1], v[at + 2]);
     if (!poses.back().allFinite())
-      throw Error(Cause::bad_input, fmt::format("{}:{}: the pose is not finite", lines.name(), lines.line_number()));
+      throw Error(Cause::bad_input,
+                  fmt::format("{}:{}: the pose is not finite", lines.name(), lines.line_number()));
   }
   if (poses.empty()) throw Error(Cause::bad_input, lines.name() + ": holds no poses");
   return poses;

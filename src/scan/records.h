@@ -24,15 +24,16 @@ struct Field {
   std::uint64_t stride;
 };
 
-// Binary records of a fixed layout, as PLY and PCD have them: `count` rows, fields in any order and place.
+// Binary records of a fixed layout, as PLY and PCD have them: `count` rows, fields in any order and
+// place.
 struct RecordLayout {
   std::vector<Field> fields;  // those with a role; x, y and z must be among them
   std::uint64_t count = 0;
   bool big_endian = false;
 };
 
-// Rows of records of `record_size` bytes that start at byte `begin` of the file; field offsets are within the
-// record. The file must be long enough.
+// Rows of records of `record_size` bytes that start at byte `begin` of the file; field offsets are
+// within the record. The file must be long enough.
 RowSource record_rows(std::shared_ptr<const InputFile> file, std::uint64_t begin,
                       std::uint64_t record_size, const RecordLayout& layout);
 

@@ -17,14 +17,15 @@ struct ExtraColumn {
   std::vector<std::int32_t> values;  // one for each point
 };
 
-// Writes a scan as PLY (binary, little-endian; coordinates as float, or double where the cloud has an origin)
-// or as XYZ text (extension .xyz or .txt), with normals and colours where the cloud has them.
-// Throws failure where the file cannot be written, usage where the extension is another.
+// Writes a scan as PLY (binary, little-endian; coordinates as float, or double where the cloud has
+// an origin) or as XYZ text (extension .xyz or .txt), with normals and colours where the cloud has
+// them. Throws failure where the file cannot be written, usage where the extension is another.
 void write_scan(const std::filesystem::path& path, const PointCloud& cloud,
                 const std::vector<ExtraColumn>& extra = {});
 
-// Writes one row for each point of the input, in its order, with its surface's id (-1 = none); points that were
-// left out for not being finite get NaN coordinates and -1. `labels`: one for each point of the cloud.
+// Writes one row for each point of the input, in its order, with its surface's id (-1 = none);
+// points that were left out for not being finite get NaN coordinates and -1. `labels`: one for each
+// point of the cloud.
 void write_labels(const std::filesystem::path& path, const PointCloud& cloud,
                   const std::vector<std::int32_t>& labels);
 

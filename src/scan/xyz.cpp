@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "../error.h"
-#include "text.h"
+#include "text_rows.h"
 
 namespace scanworld {
 
@@ -34,11 +34,9 @@ std::optional<std::vector<Role>> named_columns(std::string_view line) {
 std::optional<std::vector<double>> numbers(std::string_view line) {
   std::vector<double> values;
   for (std::string_view word : split_columns(line)) {
-    const std::string text = std::string(word) + '\n';
-    double value = 0;
-    const char* after = parse_number(text.data(), text.data() + text.size(), value);
-    if (!after || *after != '\n') return std::nullopt;
-    values.push_back(value);
+    const auto value = number_of(word);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
   }
   return values;
 }
@@ -53,7 +51,8 @@ std::vector<Role> guess_columns(const std::vector<std::vector<double>>& sample) 
            });
   };
   const auto is_color = [&](std::size_t first) {
-    return all(first, [](auto... v) { return ((v >= 0 && v <= 255 && v == std::floor(v)) && ...); });
+    return all(first,
+               [](auto... v) { return ((v >= 0 && v <= 255 && v == std::floor(v)) && ...); });
   };
   const auto is_normal = [&](std::size_t first) {
     return all(first, [](auto... v) { return std::abs(((v * v) + ...) - 1) < 0.02; });
@@ -62,7 +61,8 @@ std::vector<Role> guess_columns(const std::vector<std::vector<double>>& sample) 
   std::vector<Role> roles = {Role::x, Role::y, Role::z};
   bool color = false, normal = false;
   for (std::size_t i = 3; i < columns;) {
-    // Of four or more columns left, the first may be the intensity: the colour then starts one later.
+    // Of four or more columns left, the first may be the intensity: the colour then starts one
+    // later.
     const bool later = (columns - i) % 3 == 1 && (is_color(i + 1) || is_normal(i + 1));
     if (!later && !color && is_color(i)) {
       roles.insert(roles.end(), {Role::red, Role::green, Role::blue});

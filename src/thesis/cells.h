@@ -24,11 +24,12 @@ struct Cell {
 inline std::optional<Cell> cell_of(const Vec3& p, const Vec3& origin, double size) {
   const Vec3 at = ((p - origin) / size).array().floor();
   if (!(at.cwiseAbs().maxCoeff() < Cell::kLimit)) return std::nullopt;
-  return Cell{static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()), static_cast<std::int32_t>(at.z())};
+  return Cell{static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()),
+              static_cast<std::int32_t>(at.z())};
 }
 
-// Sorts by `key(item)`, a 64-bit number, by digits of 11 bits from the lowest. Items with equal keys keep their
-// order.
+// Sorts by `key(item)`, a 64-bit number, by digits of 11 bits from the lowest. Items with equal
+// keys keep their order.
 template <typename Item, typename Key>
 void radix_sort(std::vector<Item>& items, Key key) {
   constexpr int kBits = 11;

@@ -8,7 +8,8 @@
 
 namespace scanworld::thesis {
 
-// Points, by index into the filtered ones, that lie in one plane. In the end each cluster is one wall.
+// Points, by index into the filtered ones, that lie in one plane. In the end each cluster is one
+// wall.
 struct Cluster {
   std::vector<int> members;
   PlaneFit fit;

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::size_t kPart = 1 << 16;
 constexpr std::size_t kSample = 1 << 16;  // points that tell the rough size
-constexpr int kLevels = 16;           // sizes of cells that are looked at, each twice the one before
-constexpr double kSparse = 1.0 / 32;  // of the dense count: cells with less are not counted as part of the place
+constexpr int kLevels = 16;  // sizes of cells that are looked at, each twice the one before
+constexpr double kSparse =
+    1.0 / 32;  // of the dense count: cells with less are not counted as part of the place
 
 // The bits of a number of 21 bits, spread to every third.
 std::uint64_t spread_bits(std::uint64_t x) {
@@ -29,7 +30,9 @@ std::uint64_t spread_bits(std::uint64_t x) {
 
 // Cells in Z-order: those of a coarser grid are runs of those of a finer one (Morton, 1966).
 std::uint64_t morton(const Cell& c) {
-  const auto biased = [](std::int32_t index) { return static_cast<std::uint64_t>(index + Cell::kLimit); };
+  const auto biased = [](std::int32_t index) {
+    return static_cast<std::uint64_t>(index + Cell::kLimit);
+  };
   return spread_bits(biased(c.i)) << 2 | spread_bits(biased(c.j)) << 1 | spread_bits(biased(c.k));
 }
 
@@ -65,7 +68,8 @@ double middle_half(const std::vector<Vec3f>& points) {
   double largest = 0;
   std::vector<float> values(points.size());
   for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(), [&](const Vec3f& p) { return p[axis]; });
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](const Vec3f& p) { return p[axis]; });
     const auto rank = [&](std::size_t quarters) {
       const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * quarters / 4);
       std::nth_element(values.begin(), at, values.end());
@@ -76,7 +80,8 @@ double middle_half(const std::vector<Vec3f>& points) {
   return largest;
 }
 
-// Calls visit(first, count) for each cell of the level that holds two points or more: where its points begin.
+// Calls visit(first, count) for each cell of the level that holds two points or more: where its
+// points begin.
 template <typename Visit>
 void each_cell(const std::vector<std::uint64_t>& keys, int level, Visit visit) {
   for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
@@ -96,7 +101,8 @@ double dense_count(const std::vector<std::uint64_t>& keys, int level) {
 }
 
 // The box of the points that lie in the box of the cells of a level, without the sparse ones.
-Box3 bounds_of(const std::vector<Vec3f>& points, const std::vector<std::uint64_t>& keys, int level, double finest) {
+Box3 bounds_of(const std::vector<Vec3f>& points, const std::vector<std::uint64_t>& keys, int level,
+               double finest) {
   Box3 outer;
   const double enough = kSparse * dense_count(keys, level), size = std::ldexp(finest, level);
   each_cell(keys, level, [&](std::size_t first, std::size_t count) {
@@ -119,22 +125,29 @@ Box3 bounds_of(const std::vector<Vec3f>& points, const std::vector<std::uint64_t
 }  // namespace
 
 Extent find_extent(const PointCloud& cloud, double points_per_cube) {
-  // The finest cells are so fine that none needs to be finer, and so that they reach far beyond the place.
-  const double finest = std::ldexp(1.0, std::ilogb(std::max(middle_half(sample(cloud.points)), 1e-6)) - 12);
+  // The finest cells are so fine that none needs to be finer, and so that they reach far beyond the
+  // place.
+  const double finest =
+      std::ldexp(1.0, std::ilogb(std::max(middle_half(sample(cloud.points)), 1e-6)) - 12);
   std::vector<std::uint64_t> keys;
   keys.reserve(cloud.points.size());
   for (const Vec3f& p : cloud.points)
-    if (const auto cell = cell_of(p.cast<double>(), Vec3::Zero(), finest)) keys.push_back(morton(*cell));
+    if (const auto cell = cell_of(p.cast<double>(), Vec3::Zero(), finest))
+      keys.push_back(morton(*cell));
   radix_sort(keys, [](std::uint64_t key) { return key; });
 
   Extent extent;
-  // From coarse to fine, so that copies of one point, which fill even the finest cells, do not matter.
+  // From coarse to fine, so that copies of one point, which fill even the finest cells, do not
+  // matter.
   int level = kLevels;
   double count = dense_count(keys, level), finer = dense_count(keys, level - 1);
   if (count == 0) return extent;
-  while (level > 1 && finer >= points_per_cube) count = finer, finer = dense_count(keys, --level - 1);
+  while (level > 1 && finer >= points_per_cube)
+    count = finer, finer = dense_count(keys, --level - 1);
   // Between two levels the count grows by a power of the size.
-  const double over = finer > 0 && finer < count ? std::log2(count / points_per_cube) / std::log2(count / finer) : 0;
+  const double over = finer > 0 && finer < count
+                          ? std::log2(count / points_per_cube) / std::log2(count / finer)
+                          : 0;
   extent.cube_size = std::ldexp(finest, level) * std::exp2(-std::clamp(over, 0.0, 1.0));
   extent.bounds = bounds_of(cloud.points, keys, std::min(level + 2, kLevels), finest);
   return extent;

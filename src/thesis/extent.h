@@ -8,14 +8,16 @@ namespace scanworld::thesis {
 
 // How large a scan is and how dense, told so that stray points do not matter.
 struct Extent {
-  Box3 bounds;          // of the points that have others around them; empty where no points do
-  double cube_size = 0; // [m] edge of cubes of which the typical one holds the points asked for; 0 if none does
+  Box3 bounds;  // of the points that have others around them; empty where no points do
+  double cube_size =
+      0;  // [m] edge of cubes of which the typical one holds the points asked for; 0 if none does
 };
 
-// The step against outliers that the thesis names as missing: one point far away would stretch its cubes.
-// Space is divided into cells of powers of two of metres. Cells that hold a single point are not counted; the
-// median count of the others tells the density, and cells with far fewer than that do not count for the bounds.
-// So a point that is far from all others changes nothing, nor does the order of the points.
+// The step against outliers that the thesis names as missing: one point far away would stretch its
+// cubes. Space is divided into cells of powers of two of metres. Cells that hold a single point are
+// not counted; the median count of the others tells the density, and cells with far fewer than that
+// do not count for the bounds. So a point that is far from all others changes nothing, nor does the
+// order of the points.
 Extent find_extent(const PointCloud& cloud, double points_per_cube);
 
 }  // namespace scanworld::thesis

@@ -24,12 +24,15 @@ struct Entry {
 
 // Orders cells by i, then j, then k.
 std::uint64_t key_of(const Cell& c) {
-  const auto biased = [](std::int32_t index) { return static_cast<std::uint64_t>(index + Cell::kLimit); };
+  const auto biased = [](std::int32_t index) {
+    return static_cast<std::uint64_t>(index + Cell::kLimit);
+  };
   return biased(c.i) << 42 | biased(c.j) << 21 | biased(c.k);
 }
 
 // The points by cube, in the order of the cubes.
-std::vector<Entry> sort_into_cubes(const std::vector<Vec3f>& points, const Vec3& corner, double delta) {
+std::vector<Entry> sort_into_cubes(const std::vector<Vec3f>& points, const Vec3& corner,
+                                   double delta) {
   std::vector<Entry> entries(points.size());
   parallel_for(part_count(points.size(), kPart), [&](std::size_t i) {
     const Part part = part_of(i, points.size(), kPart);
@@ -47,7 +50,8 @@ Vec3 median(const std::vector<Vec3f>& points, const Entry* first, const Entry* l
   std::vector<float> values(static_cast<std::size_t>(last - first));
   Vec3 result;
   for (int axis = 0; axis < 3; ++axis) {
-    std::transform(first, last, values.begin(), [&](const Entry& e) { return points[e.point][axis]; });
+    std::transform(first, last, values.begin(),
+                   [&](const Entry& e) { return points[e.point][axis]; });
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     result[axis] = *middle;
@@ -55,7 +59,8 @@ Vec3 median(const std::vector<Vec3f>& points, const Entry* first, const Entry* l
   return result;
 }
 
-// How far the scan goes from the scanner: 95 % of the points are nearer. 0 where the scanner is not known.
+// How far the scan goes from the scanner: 95 % of the points are nearer. 0 where the scanner is not
+// known.
 double far_end(const PointCloud& cloud) {
   if (cloud.viewpoints.size() != 1) return 0;
   std::vector<float> distances;
@@ -67,7 +72,8 @@ double far_end(const PointCloud& cloud) {
 }
 
 // The edge of the cubes where the density of the points decides.
-double size_by_density(const PointCloud& cloud, const Extent& extent, const FilterOptions& options) {
+double size_by_density(const PointCloud& cloud, const Extent& extent,
+                       const FilterOptions& options) {
   const double far = options.depth_step > 0 ? far_end(cloud) : 0;
   return std::max({extent.cube_size, options.min_size, 2 * options.depth_step * far * far});
 }
@@ -83,7 +89,8 @@ FilteredPoints filter_points(const PointCloud& cloud, const FilterOptions& optio
                      : size_by_density(cloud, extent, options);
   if (!(result.delta > 0)) return result;
 
-  const std::vector<Entry> entries = sort_into_cubes(cloud.points, extent.bounds.min(), result.delta);
+  const std::vector<Entry> entries =
+      sort_into_cubes(cloud.points, extent.bounds.min(), result.delta);
   for (std::size_t first = 0, last = 0; first < entries.size(); first = last) {
     while (last < entries.size() && entries[last].cell == entries[first].cell) ++last;
     if (last - first <= static_cast<std::size_t>(options.min_points)) continue;

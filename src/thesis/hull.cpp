@@ -8,12 +8,11 @@ namespace scanworld::thesis {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // [m] far below any noise, far above the rounding of coordinates up to 1 km
+constexpr double kRounding =
+    1e-9;  // [m] far below any noise, far above the rounding of coordinates up to 1 km
 
 // On the line through `a` and `b` and not between them.
-bool is_beyond(const Vec3& p, const Vec3& a, const Vec3& b) {
-  return (p - a).dot(p - b) > 0;
-}
+bool is_beyond(const Vec3& p, const Vec3& a, const Vec3& b) { return (p - a).dot(p - b) > 0; }
 
 // Two points so far, and a third that is on their line: keeps the two that are farthest apart.
 void stretch(std::vector<Vec3>& pair, const Vec3& p) {
@@ -25,8 +24,10 @@ void drop_collinear(std::vector<Vec3>& hull, const Vec3& normal) {
   for (std::size_t i = 0; hull.size() > 2 && i < hull.size();) {
     const Vec3& before = hull[(i + hull.size() - 1) % hull.size()];
     const Vec3& after = hull[(i + 1) % hull.size()];
-    if (is_seeing(hull[i], before, after, normal)) ++i;
-    else hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(i));
+    if (is_seeing(hull[i], before, after, normal))
+      ++i;
+    else
+      hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
@@ -47,14 +48,15 @@ std::vector<Vec3> convex_hull(const std::vector<Vec3>& points, const Vec3& norma
     }
     const std::size_t n = hull.size();
     visible.resize(n);
-    for (std::size_t i = 0; i < n; ++i) visible[i] = is_seeing(p, hull[i], hull[(i + 1) % n], normal);
+    for (std::size_t i = 0; i < n; ++i)
+      visible[i] = is_seeing(p, hull[i], hull[(i + 1) % n], normal);
     const auto any = std::find(visible.begin(), visible.end(), 1);
     if (any == visible.end()) {
       if (n == 2) stretch(hull, p);
       continue;
     }
-    // The edges that p sees follow each other. Those from `first` on, up to the one before `last`, are replaced
-    // by the edges from `first` to p and from p to `last`.
+    // The edges that p sees follow each other. Those from `first` on, up to the one before `last`,
+    // are replaced by the edges from `first` to p and from p to `last`.
     std::size_t first = static_cast<std::size_t>(any - visible.begin());
     while (visible[(first + n - 1) % n]) first = (first + n - 1) % n;
     std::size_t last = (first + 1) % n;

@@ -9,8 +9,9 @@
 namespace scanworld::thesis {
 
 // A static kd-tree of three dimensions; every node is a point.
-// Based on: V. Petrik, Spatial Models in Mobile Robotics, 2012, Algorithms 1 and 2. Ties on an axis are broken by the
-// other coordinates, so that the tree depends on the points alone, not on their order.
+// Based on: V. Petrik, Spatial Models in Mobile Robotics, 2012, Algorithms 1 and 2. Ties on an axis
+// are broken by the other coordinates, so that the tree depends on the points alone, not on their
+// order.
 class KdTree {
  public:
   explicit KdTree(std::vector<Vec3> points);
@@ -24,7 +25,8 @@ class KdTree {
   }
   std::vector<int> range_search(const Vec3& min, const Vec3& max) const;
 
-  // The points in the order of a breadth-first walk from the root, which spreads them evenly over the set.
+  // The points in the order of a breadth-first walk from the root, which spreads them evenly over
+  // the set.
   std::vector<int> breadth_first() const;
 
  private:

@@ -11,9 +11,11 @@
 
 namespace scanworld::thesis {
 
-// For each point of the cloud the cluster that it belongs to, or -1: that of the median that stands for it, or of a
-// median near by, whichever plane is nearest and not farther than `max_distance` [m].
+// For each point of the cloud the cluster that it belongs to, or -1: that of the median that stands
+// for it, or of a median near by, whichever plane is nearest and not farther than `max_distance`
+// [m].
 std::vector<std::int32_t> label_points(const PointCloud& cloud, const FilteredPoints& filtered,
-                                       const std::vector<Cluster>& clusters, const KdTree& tree, double max_distance);
+                                       const std::vector<Cluster>& clusters, const KdTree& tree,
+                                       double max_distance);
 
 }  // namespace scanworld::thesis

@@ -35,9 +35,11 @@ std::optional<PlaneFit> fit_plane(const std::vector<Vec3>& points) {
   return fit(points.size(), [&](std::size_t i) -> const Vec3& { return points[i]; });
 }
 
-std::optional<PlaneFit> fit_plane(const std::vector<Vec3>& points, const std::vector<int>& indices) {
-  return fit(indices.size(),
-             [&](std::size_t i) -> const Vec3& { return points[static_cast<std::size_t>(indices[i])]; });
+std::optional<PlaneFit> fit_plane(const std::vector<Vec3>& points,
+                                  const std::vector<int>& indices) {
+  return fit(indices.size(), [&](std::size_t i) -> const Vec3& {
+    return points[static_cast<std::size_t>(indices[i])];
+  });
 }
 
 }  // namespace scanworld::thesis

@@ -6,7 +6,8 @@
 
 namespace scanworld::thesis {
 
-std::vector<std::vector<Vec3>> fit_to_planes(const std::vector<Vec3>& points, const std::vector<Cluster>& clusters) {
+std::vector<std::vector<Vec3>> fit_to_planes(const std::vector<Vec3>& points,
+                                             const std::vector<Cluster>& clusters) {
   std::vector<std::vector<Vec3>> fitted(clusters.size());
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (int p : clusters[c].members)
@@ -14,7 +15,8 @@ std::vector<std::vector<Vec3>> fit_to_planes(const std::vector<Vec3>& points, co
   return fitted;
 }
 
-std::vector<Polygon> find_borders(const std::vector<std::vector<Vec3>>& points, const std::vector<Cluster>& clusters) {
+std::vector<Polygon> find_borders(const std::vector<std::vector<Vec3>>& points,
+                                  const std::vector<Cluster>& clusters) {
   std::vector<Polygon> borders;
   for (std::size_t c = 0; c < clusters.size(); ++c)
     borders.push_back(convex_hull(points[c], clusters[c].fit.plane.normal));

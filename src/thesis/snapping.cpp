@@ -15,7 +15,8 @@ namespace {
 
 class Snapper {
  public:
-  Snapper(const std::vector<Cluster>& clusters, const KdTree& tree, double delta, const SnappingOptions& options)
+  Snapper(const std::vector<Cluster>& clusters, const KdTree& tree, double delta,
+          const SnappingOptions& options)
       : clusters_(clusters),
         tree_(tree),
         max_distance_(options.max_distance * delta),
@@ -51,14 +52,17 @@ class Snapper {
     }
   };
 
-  const Plane& plane(int cluster) const { return clusters_[static_cast<std::size_t>(cluster)].fit.plane; }
+  const Plane& plane(int cluster) const {
+    return clusters_[static_cast<std::size_t>(cluster)].fit.plane;
+  }
 
   // The clusters, without `own`, that have a point in the box around `at`; ascending.
   std::vector<int> clusters_near(const Vec3& at, const Vec3& range, int own) const {
     std::vector<int> found;
     tree_.range_search(at - range, at + range, [&](int p) {
       const int c = owner_[static_cast<std::size_t>(p)];
-      if (c >= 0 && c != own && std::find(found.begin(), found.end(), c) == found.end()) found.push_back(c);
+      if (c >= 0 && c != own && std::find(found.begin(), found.end(), c) == found.end())
+        found.push_back(c);
     });
     std::sort(found.begin(), found.end());
     return found;
@@ -71,8 +75,8 @@ class Snapper {
     return found;
   }
 
-  // Where three planes meet, where each of their clusters has points there. The planes are taken in the
-  // order of their clusters, so that each of the three gets the same bits.
+  // Where three planes meet, where each of their clusters has points there. The planes are taken in
+  // the order of their clusters, so that each of the three gets the same bits.
   std::optional<Vec3> corner_of(std::array<int, 3> walls) const {
     std::sort(walls.begin(), walls.end());
     Mat3 normals;
@@ -94,9 +98,11 @@ class Snapper {
   std::optional<Vec3> nearest_on_line(const Vec3& vertex, int a, int b) const {
     const Vec3 direction = plane(a).normal.cross(plane(b).normal);
     if (direction.norm() < min_sine_) return std::nullopt;
-    // The foot of the perpendicular from the vertex: on both planes, and in the plane across the line.
+    // The foot of the perpendicular from the vertex: on both planes, and in the plane across the
+    // line.
     Mat3 rows;
-    rows << plane(a).normal.transpose(), plane(b).normal.transpose(), direction.normalized().transpose();
+    rows << plane(a).normal.transpose(), plane(b).normal.transpose(),
+        direction.normalized().transpose();
     const Vec3 at = rows.partialPivLu().solve(
         Vec3(-plane(a).offset, -plane(b).offset, direction.normalized().dot(vertex)));
     if (!has_point_near(at, a) || !has_point_near(at, b)) return std::nullopt;
@@ -119,8 +125,9 @@ double distance_to_line(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-std::vector<Polygon> snap_vertices(const std::vector<Polygon>& polygons, const std::vector<Cluster>& clusters,
-                                   const KdTree& tree, double delta, const SnappingOptions& options) {
+std::vector<Polygon> snap_vertices(const std::vector<Polygon>& polygons,
+                                   const std::vector<Cluster>& clusters, const KdTree& tree,
+                                   double delta, const SnappingOptions& options) {
   const Snapper snapper(clusters, tree, delta, options);
   std::vector<Polygon> snapped = polygons;
   for (std::size_t i = 0; i < snapped.size(); ++i) {
@@ -131,7 +138,8 @@ std::vector<Polygon> snap_vertices(const std::vector<Polygon>& polygons, const s
   return snapped;
 }
 
-std::vector<Polygon> reduce_vertices(std::vector<Polygon> polygons, double delta, const ReductionOptions& options) {
+std::vector<Polygon> reduce_vertices(std::vector<Polygon> polygons, double delta,
+                                     const ReductionOptions& options) {
   const double max_distance = options.max_distance * delta;
   for (Polygon& polygon : polygons) {
     for (std::size_t i = 0; i < polygon.size() && polygon.size() > 3;) {

@@ -13,7 +13,8 @@ constexpr int kNobody = -1;
 
 // For each point those in the box around it.
 struct Neighbours {
-  std::vector<std::size_t> first;  // where each point's begin in `all`, and where the last one's end
+  std::vector<std::size_t>
+      first;  // where each point's begin in `all`, and where the last one's end
   std::vector<int> all;
 
   std::span<const int> of(int point) const {
@@ -35,7 +36,8 @@ Neighbours find_neighbours(const KdTree& tree, double range) {
 // Who owns which points, while clusters compete for them.
 class Rivalry {
  public:
-  Rivalry(const KdTree& tree, double delta, std::vector<Cluster> clusters, const SpreadingOptions& options)
+  Rivalry(const KdTree& tree, double delta, std::vector<Cluster> clusters,
+          const SpreadingOptions& options)
       : tree_(tree),
         points_(tree.points()),
         clusters_(std::move(clusters)),
@@ -62,7 +64,8 @@ class Rivalry {
   std::vector<Cluster> result() {
     std::vector<Cluster> left;
     for (std::size_t c = 0; c < clusters_.size(); ++c)
-      if (refit(static_cast<int>(c)) && size_[c] >= static_cast<std::size_t>(options_.min_points_in_wall))
+      if (refit(static_cast<int>(c)) &&
+          size_[c] >= static_cast<std::size_t>(options_.min_points_in_wall))
         left.push_back(std::move(clusters_[c]));
     std::stable_sort(left.begin(), left.end(), [](const Cluster& a, const Cluster& b) {
       return a.members.size() > b.members.size();
@@ -91,8 +94,9 @@ class Rivalry {
   bool refit(int c) {
     std::vector<int>& members = cluster(c).members;
     std::erase_if(members, [&](int p) { return owner(p) != c; });
-    const auto fit = members.size() < static_cast<std::size_t>(options_.min_points) ? std::nullopt
-                                                                                    : fit_plane(points_, members);
+    const auto fit = members.size() < static_cast<std::size_t>(options_.min_points)
+                         ? std::nullopt
+                         : fit_plane(points_, members);
     if (fit) {
       cluster(c).fit = *fit;
       return true;
@@ -142,14 +146,15 @@ class Rivalry {
   std::vector<Cluster> clusters_;
   const SpreadingOptions& options_;
   const double reach_, min_distance_;
-  Neighbours neighbours_;           // of each point, itself included
-  std::vector<int> owner_;          // of each point
-  std::vector<std::size_t> size_;   // points that each cluster owns
+  Neighbours neighbours_;          // of each point, itself included
+  std::vector<int> owner_;         // of each point
+  std::vector<std::size_t> size_;  // points that each cluster owns
 };
 
 }  // namespace
 
-std::vector<Cluster> spread_clusters(const KdTree& tree, double delta, std::vector<Cluster> clusters,
+std::vector<Cluster> spread_clusters(const KdTree& tree, double delta,
+                                     std::vector<Cluster> clusters,
                                      const SpreadingOptions& options) {
   Rivalry rivalry(tree, delta, std::move(clusters), options);
   std::size_t most = 0;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The method of 2012: V. Petrik, Spatial Models in Mobile Robotics, bachelor thesis, CTU in Prague. Its stages are
-// the headers of this folder; their options, most of which the thesis does not give, are here together.
+// The method of 2012: V. Petrik, Spatial Models in Mobile Robotics, bachelor thesis, CTU in Prague.
+// Its stages are the headers of this folder; their options, most of which the thesis does not give,
+// are here together.
 #pragma once
 
 #include "../options.h"

@@ -9,20 +9,21 @@ namespace scanworld::thesis {
 
 namespace {
 
-// How far inside the circle through a, b and c the point p lies, by the in-circle determinant over the triangle's
-// area: positive inside. Without bound for a triangle without area.
+// How far inside the circle through a, b and c the point p lies, by the in-circle determinant over
+// the triangle's area: positive inside. Without bound for a triangle without area.
 double depth_in_circle(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
   const double area = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
   if (area <= 0) return std::numeric_limits<double>::infinity();
   Mat3 m;
-  m << (a - p).x(), (a - p).y(), (a - p).squaredNorm(), (b - p).x(), (b - p).y(), (b - p).squaredNorm(),
-      (c - p).x(), (c - p).y(), (c - p).squaredNorm();
+  m << (a - p).x(), (a - p).y(), (a - p).squaredNorm(), (b - p).x(), (b - p).y(),
+      (b - p).squaredNorm(), (c - p).x(), (c - p).y(), (c - p).squaredNorm();
   return m.determinant() / area;
 }
 
 }  // namespace
 
-std::vector<std::array<int, 3>> triangulate_convex(const std::vector<Vec3>& vertices, const Vec3& normal) {
+std::vector<std::array<int, 3>> triangulate_convex(const std::vector<Vec3>& vertices,
+                                                   const Vec3& normal) {
   std::vector<std::array<int, 3>> triangles;
   if (vertices.size() < 3) return triangles;
   const PlaneFrame frame = frame_of(plane_through(vertices[0], normal), vertices[0]);
@@ -41,7 +42,8 @@ std::vector<std::array<int, 3>> triangulate_convex(const std::vector<Vec3>& vert
       double deepest = -std::numeric_limits<double>::infinity();
       for (int other : left)
         if (other != before && other != here && other != after)
-          deepest = std::max(deepest, depth_in_circle(point(other), point(before), point(here), point(after)));
+          deepest = std::max(
+              deepest, depth_in_circle(point(other), point(before), point(here), point(after)));
       if (deepest < least) least = deepest, best = i;
       if (deepest <= 0) break;  // meets the Delaunay condition
     }

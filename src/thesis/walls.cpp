@@ -12,7 +12,7 @@ namespace scanworld::thesis {
 
 namespace {
 
-constexpr double kFrontDepth = 4;          // [m] how far before and behind a polygon the place is looked at
+constexpr double kFrontDepth = 4;  // [m] how far before and behind a polygon the place is looked at
 constexpr std::size_t kFrontPoints = 20000;  // of all points so many are looked at, about
 
 // What the points of one cluster add up to, in whole numbers: their order does not matter.
@@ -56,22 +56,25 @@ double free_side(const Plane& plane, const Polygon& polygon, const std::vector<V
                  const std::vector<Vec3>& points) {
   if (!viewpoints.empty()) {
     const Vec3 middle = middle_of(polygon);
-    const auto nearest = std::min_element(viewpoints.begin(), viewpoints.end(), [&](const Vec3& a, const Vec3& b) {
-      return (a - middle).squaredNorm() < (b - middle).squaredNorm();
-    });
+    const auto nearest =
+        std::min_element(viewpoints.begin(), viewpoints.end(), [&](const Vec3& a, const Vec3& b) {
+          return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+        });
     return plane.signed_distance(*nearest);
   }
   double sum = 0;
   const std::size_t step = points.size() / kFrontPoints + 1;
   for (std::size_t i = 0; i < points.size(); i += step) {
     const double distance = plane.signed_distance(points[i]);
-    if (std::abs(distance) < kFrontDepth && is_inside(points[i], polygon, plane.normal)) sum += distance;
+    if (std::abs(distance) < kFrontDepth && is_inside(points[i], polygon, plane.normal))
+      sum += distance;
   }
   return sum;
 }
 
 // The share of the polygon's cells of two delta that hold one of the cluster's points.
-double coverage(const Cluster& cluster, const Polygon& polygon, const std::vector<Vec3>& points, double delta) {
+double coverage(const Cluster& cluster, const Polygon& polygon, const std::vector<Vec3>& points,
+                double delta) {
   const PlaneFrame frame = frame_of(cluster.fit.plane, polygon[0]);
   const double size = 2 * delta;
   const auto cell_at = [&](const Vec3& p) {
@@ -89,7 +92,9 @@ double coverage(const Cluster& cluster, const Polygon& polygon, const std::vecto
   std::size_t inside = 0, covered = 0;
   for (int i = low.first; i <= high.first; ++i)
     for (int j = low.second; j <= high.second; ++j) {
-      if (!is_inside(frame.to_space(Vec2((i + 0.5) * size, (j + 0.5) * size)), polygon, cluster.fit.plane.normal)) continue;
+      if (!is_inside(frame.to_space(Vec2((i + 0.5) * size, (j + 0.5) * size)), polygon,
+                     cluster.fit.plane.normal))
+        continue;
       ++inside;
       covered += occupied.count({i, j});
     }
@@ -98,9 +103,11 @@ double coverage(const Cluster& cluster, const Polygon& polygon, const std::vecto
 
 }  // namespace
 
-std::vector<FoundSurface> describe_walls(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
+std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
+                                         const std::vector<std::int32_t>& labels,
                                          const std::vector<Vec3>& points, double delta,
-                                         const std::vector<Cluster>& clusters, const std::vector<Polygon>& polygons) {
+                                         const std::vector<Cluster>& clusters,
+                                         const std::vector<Polygon>& polygons) {
   const std::vector<Sums> sums = add_up(cloud, labels, clusters);
   std::vector<FoundSurface> walls;
   for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -116,7 +123,9 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud, const std::vec
     if (sums[c].points > 0) {
       const double n = static_cast<double>(sums[c].points);
       wall.support.rms = std::sqrt(static_cast<double>(sums[c].square_um) / n) * 1e-6;
-      const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>(static_cast<double>(sums[c].color[k]) / n + 0.5); };
+      const auto mean = [&](std::size_t k) {
+        return static_cast<std::uint8_t>(static_cast<double>(sums[c].color[k]) / n + 0.5);
+      };
       if (!cloud.colors.empty()) wall.color = Color{mean(0), mean(1), mean(2)};
     }
     walls.push_back(std::move(wall));

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-
 namespace scanworld {
 
 namespace {
@@ -27,9 +26,12 @@ class VertexPool {
 
  private:
   int add(const Vec3& v) {
-    const std::array<std::int64_t, 3> um = {std::llround(v.x() * 1e6), std::llround(v.y() * 1e6), std::llround(v.z() * 1e6)};
+    const std::array<std::int64_t, 3> um = {std::llround(v.x() * 1e6), std::llround(v.y() * 1e6),
+                                            std::llround(v.z() * 1e6)};
     const auto [found, is_new] = index_.try_emplace(um, static_cast<int>(vertices_.size()));
-    if (is_new) vertices_.emplace_back(static_cast<double>(um[0]) / 1e6, static_cast<double>(um[1]) / 1e6, static_cast<double>(um[2]) / 1e6);
+    if (is_new)
+      vertices_.emplace_back(static_cast<double>(um[0]) / 1e6, static_cast<double>(um[1]) / 1e6,
+                             static_cast<double>(um[2]) / 1e6);
     return found->second;
   }
 
@@ -86,7 +88,8 @@ void classify(World& world, const ClassifyOptions& options) {
   const auto stands_on_another = [&](const Surface& s) {
     const Vec3 middle = middle_of(world, s);
     return std::any_of(world.surfaces.begin(), world.surfaces.end(), [&](const Surface& other) {
-      if (&other == &s || rise(other) <= level || area(world, other) <= area(world, s)) return false;
+      if (&other == &s || rise(other) <= level || area(world, other) <= area(world, s))
+        return false;
       const double above = other.plane.signed_distance(middle) / rise(other);
       // Its bounding box is enough: a floor ends before what stands on it and hides it.
       return above > 0 && above < options.max_table_height &&
@@ -95,10 +98,14 @@ void classify(World& world, const ClassifyOptions& options) {
   };
   for (Surface& s : world.surfaces) {
     const HeightRange range = heights(world, s);
-    if (rise(s) > level) s.kind = stands_on_another(s) ? Kind::other : Kind::floor;
-    else if (rise(s) < -level) s.kind = Kind::ceiling;
-    else if (std::abs(rise(s)) < upright && range.high - range.low >= options.min_wall_height) s.kind = Kind::wall;
-    else s.kind = Kind::other;
+    if (rise(s) > level)
+      s.kind = stands_on_another(s) ? Kind::other : Kind::floor;
+    else if (rise(s) < -level)
+      s.kind = Kind::ceiling;
+    else if (std::abs(rise(s)) < upright && range.high - range.low >= options.min_wall_height)
+      s.kind = Kind::wall;
+    else
+      s.kind = Kind::other;
   }
 }
 

@@ -8,18 +8,22 @@
 
 namespace scanworld {
 
-// Makes a world of surfaces, in their order: surface i gets the id i. Vertices are rounded to the micrometre, and those
-// that are then the same are shared. The kinds are those that classify() gives.
+// Makes a world of surfaces, in their order: surface i gets the id i. Vertices are rounded to the
+// micrometre, and those that are then the same are shared. The kinds are those that classify()
+// gives.
 World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& frame);
 
 struct ClassifyOptions {
-  double max_tilt = 0.44;         // [rad] floors, ceilings and walls are off level or upright by less (25 degrees)
-  double min_wall_height = 1.0;   // [m] upright surfaces that are lower are no walls
-  double max_table_height = 2.0;  // [m] a level surface that stands no higher than this over a larger one is no floor
+  double max_tilt =
+      0.44;  // [rad] floors, ceilings and walls are off level or upright by less (25 degrees)
+  double min_wall_height = 1.0;  // [m] upright surfaces that are lower are no walls
+  double max_table_height =
+      2.0;  // [m] a level surface that stands no higher than this over a larger one is no floor
 };
 
-// Tells the kind of each surface by its slope, facing and place: floors are level, face up and have no larger
-// surface that faces up closely below them; ceilings are level and face down; walls are upright and high enough.
+// Tells the kind of each surface by its slope, facing and place: floors are level, face up and have
+// no larger surface that faces up closely below them; ceilings are level and face down; walls are
+// upright and high enough.
 void classify(World& world, const ClassifyOptions& options = {});
 
 }  // namespace scanworld

@@ -30,7 +30,8 @@ GEOSGeometry* ring_of(GEOSContextHandle_t handle, const std::vector<Vec2>& ring)
     xy.push_back(ring[i % ring.size()].y());
   }
   return GEOSGeom_createLinearRing_r(
-      handle, GEOSCoordSeq_copyFromBuffer_r(handle, xy.data(), static_cast<unsigned>(ring.size() + 1), 0, 0));
+      handle, GEOSCoordSeq_copyFromBuffer_r(handle, xy.data(),
+                                            static_cast<unsigned>(ring.size() + 1), 0, 0));
 }
 
 Geometry polygon_of(const Context& context, const Rings& rings) {
@@ -76,7 +77,8 @@ std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings) 
   const Context context;
   const Geometry polygon = polygon_of(context, rings);
   if (!polygon) return std::nullopt;
-  const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()), Free{context.handle});
+  const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()),
+                        Free{context.handle});
   if (!result) return std::nullopt;
   std::vector<std::array<Vec2, 3>> triangles;
   const int count = GEOSGetNumGeometries_r(context.handle, result.get());

@@ -14,7 +14,8 @@ namespace {
 constexpr double kMaxPlaces = 3000;  // that are tried, about; all pairs of them are looked at
 
 // Points over the floors where a scanner can stand.
-std::vector<Vec3> standing_places(const World& world, const RayScene& scene, const PlaceOptions& options) {
+std::vector<Vec3> standing_places(const World& world, const RayScene& scene,
+                                  const PlaceOptions& options) {
   const Vec3 up = world.frame.up;
   const PlaneFrame ground = frame_of({up, 0});
   double floor_area = 0;
@@ -26,7 +27,8 @@ std::vector<Vec3> standing_places(const World& world, const RayScene& scene, con
     const Surface& floor = world.surfaces[s];
     if (floor.kind != Kind::floor) continue;
     Eigen::AlignedBox2d box;
-    for (int index : floor.outer) box.extend(ground.to_plane(world.vertices[static_cast<std::size_t>(index)]));
+    for (int index : floor.outer)
+      box.extend(ground.to_plane(world.vertices[static_cast<std::size_t>(index)]));
     const Vec2 steps = (box.sizes() / spacing).array().floor();
     for (int i = 0; i <= static_cast<int>(steps.x()); ++i)
       for (int k = 0; k <= static_cast<int>(steps.y()); ++k) {
@@ -40,7 +42,8 @@ std::vector<Vec3> standing_places(const World& world, const RayScene& scene, con
         bool clear = true;
         for (int d = 0; d < 16 && clear; ++d) {
           const double angle = 2 * M_PI * d / 16;
-          clear = scene.is_free(place, place + options.clearance * (std::cos(angle) * ground.u + std::sin(angle) * ground.v));
+          clear = scene.is_free(place, place + options.clearance * (std::cos(angle) * ground.u +
+                                                                    std::sin(angle) * ground.v));
         }
         if (clear) places.push_back(place);
       }
@@ -56,7 +59,8 @@ std::vector<Vec3> place_scanners(const World& world, const PlaceOptions& options
   std::vector<std::vector<char>> sees(places.size());
   parallel_for(places.size(), [&](std::size_t i) {
     sees[i].resize(places.size());
-    for (std::size_t k = 0; k < places.size(); ++k) sees[i][k] = scene.is_free(places[i], places[k]);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      sees[i][k] = scene.is_free(places[i], places[k]);
   });
   std::vector<char> seen(places.size());
   std::vector<Vec3> chosen;
@@ -70,7 +74,8 @@ std::vector<Vec3> place_scanners(const World& world, const PlaceOptions& options
     }
     if (most == 0) return chosen;
     chosen.push_back(places[best]);
-    for (std::size_t k = 0; k < places.size(); ++k) seen[k] = static_cast<char>(seen[k] | sees[best][k]);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      seen[k] = static_cast<char>(seen[k] | sees[best][k]);
   }
 }
 

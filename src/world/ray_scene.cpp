@@ -12,7 +12,8 @@ namespace scanworld {
 struct RayScene::Impl {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = rtcNewScene(device);
-  std::vector<std::pair<bool, std::size_t>> owner;  // of each triangle: surface or not, and its index
+  std::vector<std::pair<bool, std::size_t>>
+      owner;  // of each triangle: surface or not, and its index
 
   ~Impl() {
     rtcReleaseScene(scene);
@@ -20,15 +21,18 @@ struct RayScene::Impl {
   }
 
   void build(const Mesh& mesh) {
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through an edge that two triangles share
+    rtcSetSceneFlags(
+        scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through an edge that two triangles share
     if (!mesh.triangles.empty()) {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-      auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                              3 * sizeof(float), mesh.vertices.size()));
+      auto* xyz = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                              RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                              mesh.vertices.size()));
       for (const Vec3& v : mesh.vertices)
         for (int k = 0; k < 3; ++k) *xyz++ = static_cast<float>(v[k]);
-      auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-          geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+      auto* corners = static_cast<unsigned*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                  3 * sizeof(unsigned), mesh.triangles.size()));
       for (const auto& t : mesh.triangles)
         for (int index : t) *corners++ = static_cast<unsigned>(index);
       rtcCommitGeometry(geometry);

@@ -13,12 +13,13 @@ namespace scanworld {
 
 // What a ray meets first.
 struct Hit {
-  double distance;             // [m] from the ray's origin
-  bool is_surface;             // or an obstacle
-  std::size_t index;           // into World::surfaces or World::obstacles
+  double distance;    // [m] from the ray's origin
+  bool is_surface;    // or an obstacle
+  std::size_t index;  // into World::surfaces or World::obstacles
 };
 
-// The surfaces and obstacles of a world, ready for rays (Embree). Both sides of a surface are met. Thread-safe.
+// The surfaces and obstacles of a world, ready for rays (Embree). Both sides of a surface are met.
+// Thread-safe.
 class RayScene {
  public:
   explicit RayScene(const World& world);

@@ -15,8 +15,8 @@ namespace scanworld {
 
 namespace {
 
-// A prism with `base` counter-clockwise seen from below, against the direction of `extrusion`: both its ends, as
-// fans, and its sides.
+// A prism with `base` counter-clockwise seen from below, against the direction of `extrusion`: both
+// its ends, as fans, and its sides.
 Mesh extrude(const std::vector<Vec3>& base, const Vec3& extrusion) {
   Mesh mesh;
   mesh.vertices = base;
@@ -82,11 +82,14 @@ Mesh mesh_of(const ConvexHull& hull) {
   qhT* qh = &state.qh;
   char command[] = "qhull Qt Pp";  // triangles only, no warnings
   std::FILE* silent = std::fopen("/dev/null", "w");
-  const int failed = hull.vertices.size() < 4 ? 1
-                                              : qh_new_qhull(qh, 3, static_cast<int>(hull.vertices.size()), coordinates.data(),
-                                                             0, command, nullptr, silent);
+  const int failed = hull.vertices.size() < 4
+                         ? 1
+                         : qh_new_qhull(qh, 3, static_cast<int>(hull.vertices.size()),
+                                        coordinates.data(), 0, command, nullptr, silent);
   if (silent) std::fclose(silent);
-  if (failed) throw Error(Cause::check_failed, fmt::format("a hull of {} points has no volume", hull.vertices.size()));
+  if (failed)
+    throw Error(Cause::check_failed,
+                fmt::format("a hull of {} points has no volume", hull.vertices.size()));
 
   Mesh mesh;
   std::map<int, int> index_of;  // points that are corners of the hull
@@ -97,11 +100,13 @@ Mesh mesh_of(const ConvexHull& hull) {
     vertexT *vertex = nullptr, **vertexp = nullptr;
     FOREACHvertex_(facet->vertices) {
       const int point = qh_pointid(qh, vertex->point);
-      const auto [found, is_new] = index_of.try_emplace(point, static_cast<int>(mesh.vertices.size()));
+      const auto [found, is_new] =
+          index_of.try_emplace(point, static_cast<int>(mesh.vertices.size()));
       if (is_new) mesh.vertices.push_back(hull.vertices[static_cast<std::size_t>(point)]);
       if (k < 3) triangle[k++] = found->second;
     }
-    const Vec3 &a = mesh.vertices[static_cast<std::size_t>(triangle[0])], &b = mesh.vertices[static_cast<std::size_t>(triangle[1])],
+    const Vec3 &a = mesh.vertices[static_cast<std::size_t>(triangle[0])],
+               &b = mesh.vertices[static_cast<std::size_t>(triangle[1])],
                &c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
     if ((b - a).cross(c - a).dot(Vec3(facet->normal[0], facet->normal[1], facet->normal[2])) < 0)
       std::swap(triangle[1], triangle[2]);

@@ -10,7 +10,9 @@ namespace scanworld {
 // The loops of a surface in the frame of its plane, the outer one first, vertex for vertex.
 // Their indices must be in range.
 inline geos::Rings rings_of(const World& world, const Surface& surface) {
-  const auto at = [&](int index) -> const Vec3& { return world.vertices[static_cast<std::size_t>(index)]; };
+  const auto at = [&](int index) -> const Vec3& {
+    return world.vertices[static_cast<std::size_t>(index)];
+  };
   const PlaneFrame frame = frame_of(surface.plane, at(surface.outer[0]));
   const auto ring = [&](const Loop& loop) {
     std::vector<Vec2> points;

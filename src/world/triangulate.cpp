@@ -48,7 +48,8 @@ std::vector<std::array<int, 3>> triangulate(const World& world, const Surface& s
 
 WorldMesh triangulate(const World& world) {
   std::vector<std::vector<std::array<int, 3>>> parts(world.surfaces.size());
-  parallel_for(parts.size(), [&](std::size_t i) { parts[i] = triangulate(world, world.surfaces[i]); });
+  parallel_for(parts.size(),
+               [&](std::size_t i) { parts[i] = triangulate(world, world.surfaces[i]); });
   WorldMesh result;
   result.mesh.vertices = world.vertices;
   for (std::size_t i = 0; i < parts.size(); ++i) {

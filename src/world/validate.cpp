@@ -82,7 +82,8 @@ class Validator {
     const std::string name = fmt::format("surface {}", s.id);
     if (!is_unit(s.plane.normal)) return report("{}: the normal is not of length 1", name);
     if (!std::isfinite(s.plane.offset)) return report("{}: the plane's offset is not finite", name);
-    if (s.thickness && !(*s.thickness > 0)) report("{}: the thickness {} is not positive", name, *s.thickness);
+    if (s.thickness && !(*s.thickness > 0))
+      report("{}: the thickness {} is not positive", name, *s.thickness);
     if (!(s.support.rms >= 0)) report("{}: the rms {} is negative", name, s.support.rms);
     if (!(s.support.coverage >= 0 && s.support.coverage <= 1))
       report("{}: the coverage {} is not from 0 to 1", name, s.support.coverage);
@@ -98,26 +99,34 @@ class Validator {
   }
 
   // True where the loop's vertices exist, are different and lie in the plane.
-  bool check_loop(const std::string& name, const std::string& loop_name, const Loop& loop, const Plane& plane) {
-    if (loop.size() < 3) return report("{}: {} has {} vertices", name, loop_name, loop.size()), false;
+  bool check_loop(const std::string& name, const std::string& loop_name, const Loop& loop,
+                  const Plane& plane) {
+    if (loop.size() < 3)
+      return report("{}: {} has {} vertices", name, loop_name, loop.size()), false;
     std::set<int> seen;
     bool sound = true;
     for (int index : loop) {
       if (index < 0 || static_cast<std::size_t>(index) >= world_.vertices.size())
-        return report("{}: {} has the vertex {}, but there are {}", name, loop_name, index, world_.vertices.size()), false;
-      if (!seen.insert(index).second) report("{}: {} has the vertex {} twice", name, loop_name, index), sound = false;
+        return report("{}: {} has the vertex {}, but there are {}", name, loop_name, index,
+                      world_.vertices.size()),
+               false;
+      if (!seen.insert(index).second)
+        report("{}: {} has the vertex {} twice", name, loop_name, index), sound = false;
       const Vec3& v = world_.vertices[static_cast<std::size_t>(index)];
       const double off = std::abs(plane.signed_distance(v));
-      if (!v.allFinite()) sound = false;
+      if (!v.allFinite())
+        sound = false;
       else if (off > kPlanarTolerance)
-        report("{}: vertex {} of {} is {:.4f} m off the plane", name, index, loop_name, off), sound = false;
+        report("{}: vertex {} of {} is {:.4f} m off the plane", name, index, loop_name, off),
+            sound = false;
     }
     return sound;
   }
 
   void check(const Opening& o) {
     const std::string name = fmt::format("opening {}", o.id);
-    if (!(o.width > 0) || !(o.height > 0)) report("{}: the size {} x {} is not positive", name, o.width, o.height);
+    if (!(o.width > 0) || !(o.height > 0))
+      report("{}: the size {} x {} is not positive", name, o.width, o.height);
     const auto surface = std::find_if(world_.surfaces.begin(), world_.surfaces.end(),
                                       [&](const Surface& s) { return s.id == o.surface; });
     if (surface == world_.surfaces.end()) return check_surface_id(name, o.surface);
@@ -128,7 +137,8 @@ class Validator {
     if (!b.center.allFinite()) report("{}: the center is not finite", name);
     if (!(b.size.array() > 0).all() || !b.size.allFinite())
       report("{}: the size {} {} {} is not positive", name, b.size.x(), b.size.y(), b.size.z());
-    if (!(std::abs(b.rotation.norm() - 1) < kUnitTolerance)) report("{}: the rotation is not of length 1", name);
+    if (!(std::abs(b.rotation.norm() - 1) < kUnitTolerance))
+      report("{}: the rotation is not of length 1", name);
   }
   void check_shape(const std::string& name, const ConvexHull& h) {
     if (h.vertices.size() < 4) report("{}: the hull has {} vertices", name, h.vertices.size());
@@ -136,7 +146,8 @@ class Validator {
   }
   void check_shape(const std::string& name, const Cylinder& c) {
     if (!c.center.allFinite()) report("{}: the center is not finite", name);
-    if (!(c.radius > 0) || !(c.height > 0)) report("{}: the size {} x {} is not positive", name, c.radius, c.height);
+    if (!(c.radius > 0) || !(c.height > 0))
+      report("{}: the size {} x {} is not positive", name, c.radius, c.height);
   }
   void check_shape(const std::string& name, const ConvexPrism& p) {
     if (p.base.size() < 3) report("{}: the base has {} vertices", name, p.base.size());

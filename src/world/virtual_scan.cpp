@@ -16,17 +16,18 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kJump = 0.10;          // [m] range step between neighbouring rays that is an edge
-constexpr double kGrazing = 0.17;       // cosine of incidence below which returns get rare
-constexpr double kJitter = 0.2;         // of the resolution, by which rays are off their grid
+constexpr double kJump = 0.10;     // [m] range step between neighbouring rays that is an edge
+constexpr double kGrazing = 0.17;  // cosine of incidence below which returns get rare
+constexpr double kJitter = 0.2;    // of the resolution, by which rays are off their grid
 constexpr double kZenith = M_PI / 2;
 
-// Random numbers of one ray or point: SplitMix64 (Steele, Lea, Flood 2014) from a key. The same on every machine,
-// which std::*_distribution do not promise.
+// Random numbers of one ray or point: SplitMix64 (Steele, Lea, Flood 2014) from a key. The same on
+// every machine, which std::*_distribution do not promise.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t item)
-      : state_(seed * 0x9e3779b97f4a7c15 ^ stream * 0xd1b54a32d192ed03 ^ item * 0x8cb92ba72f3d8dd7) {
+      : state_(seed * 0x9e3779b97f4a7c15 ^ stream * 0xd1b54a32d192ed03 ^
+               item * 0x8cb92ba72f3d8dd7) {
     next();
   }
   std::uint64_t next() {
@@ -54,8 +55,8 @@ struct Sample {
 // One turn of a scanner: all rays of all poses.
 class Scanner {
  public:
-  Scanner(const World& world, const RayScene& scene, const std::vector<Vec3>& poses, const VirtualScanOptions& options,
-          double resolution)
+  Scanner(const World& world, const RayScene& scene, const std::vector<Vec3>& poses,
+          const VirtualScanOptions& options, double resolution)
       : world_(world),
         scene_(scene),
         poses_(poses),
@@ -80,10 +81,14 @@ class Scanner {
 
   Echo shoot(std::size_t pose, std::size_t row, std::size_t column) const {
     Random random(options_.seed, 2 * pose, row * columns_ + column);
-    const double elevation = options_.lowest + (static_cast<double>(row) + 0.5 + kJitter * (random.uniform() - 0.5)) * step_;
-    const double azimuth = (static_cast<double>(column) + kJitter * (random.uniform() - 0.5)) * step_;
+    const double elevation =
+        options_.lowest +
+        (static_cast<double>(row) + 0.5 + kJitter * (random.uniform() - 0.5)) * step_;
+    const double azimuth =
+        (static_cast<double>(column) + kJitter * (random.uniform() - 0.5)) * step_;
     const double e = std::min(elevation, kZenith);
-    const Vec3 direction(std::cos(e) * std::cos(azimuth), std::cos(e) * std::sin(azimuth), std::sin(e));
+    const Vec3 direction(std::cos(e) * std::cos(azimuth), std::cos(e) * std::sin(azimuth),
+                         std::sin(e));
     return {direction, scene_.cast(poses_[pose], direction, options_.max_range)};
   }
 
@@ -101,9 +106,11 @@ class Scanner {
     return samples;
   }
 
-  std::optional<Sample> measure(const Echo& echo, const std::optional<Hit>& left, std::size_t pose, Random& random) const {
+  std::optional<Sample> measure(const Echo& echo, const std::optional<Hit>& left, std::size_t pose,
+                                Random& random) const {
     const Hit& hit = *echo.hit;
-    Sample sample{.kind = static_cast<std::int32_t>(hit.is_surface ? PointKind::surface : PointKind::obstacle),
+    Sample sample{.kind = static_cast<std::int32_t>(hit.is_surface ? PointKind::surface
+                                                                   : PointKind::obstacle),
                   .pose = static_cast<std::int32_t>(pose)};
     double incidence = 1;  // cosine
     sample.surface = -1;
@@ -114,10 +121,12 @@ class Scanner {
       if (incidence < kGrazing && random.uniform() > incidence / kGrazing) return std::nullopt;
     }
     double range = hit.distance;
-    // The beam of a ray at an edge meets two things and may return a range between them. A step that the slant
-    // of a surface explains is no edge.
-    const double slant = range * step_ * std::sqrt(1 - incidence * incidence) / std::max(incidence, 0.02);
-    if (left && std::abs(left->distance - range) > std::max(kJump, 2 * slant) && random.uniform() < options_.mixed) {
+    // The beam of a ray at an edge meets two things and may return a range between them. A step
+    // that the slant of a surface explains is no edge.
+    const double slant =
+        range * step_ * std::sqrt(1 - incidence * incidence) / std::max(incidence, 0.02);
+    if (left && std::abs(left->distance - range) > std::max(kJump, 2 * slant) &&
+        random.uniform() < options_.mixed) {
       const double between = range + (left->distance - range) * random.uniform();
       const double off = std::min(std::abs(between - range), std::abs(between - left->distance));
       if (off > 3 * std::max(options_.noise, 0.003)) {
@@ -152,8 +161,9 @@ void check(const VirtualScanOptions& o) {
 }
 
 // Finds the resolution that gives a few more returns than wanted, and drops those by chance.
-std::vector<Sample> scan_points(const World& world, const RayScene& scene, const std::vector<Vec3>& poses,
-                                const VirtualScanOptions& options, std::size_t wanted) {
+std::vector<Sample> scan_points(const World& world, const RayScene& scene,
+                                const std::vector<Vec3>& poses, const VirtualScanOptions& options,
+                                std::size_t wanted) {
   const double sphere = (kZenith - options.lowest) * 2 * M_PI * static_cast<double>(poses.size());
   double rays = 20000;
   std::vector<Sample> samples;
@@ -161,7 +171,8 @@ std::vector<Sample> scan_points(const World& world, const RayScene& scene, const
     samples = Scanner(world, scene, poses, options, std::sqrt(sphere / rays)).run();
     if (samples.empty()) return samples;
     if (samples.size() >= wanted && round > 0) break;
-    rays *= std::max(round > 0 ? 1.02 : 0.0, 1.02 * static_cast<double>(wanted) / static_cast<double>(samples.size()));
+    rays *= std::max(round > 0 ? 1.02 : 0.0,
+                     1.02 * static_cast<double>(wanted) / static_cast<double>(samples.size()));
   }
   if (samples.size() <= wanted) return samples;
   std::vector<std::uint64_t> ranks;
@@ -172,11 +183,13 @@ std::vector<Sample> scan_points(const World& world, const RayScene& scene, const
   return samples;
 }
 
-void add_outliers(const World& world, const VirtualScanOptions& options, std::size_t poses, std::vector<Sample>& samples) {
+void add_outliers(const World& world, const VirtualScanOptions& options, std::size_t poses,
+                  std::vector<Sample>& samples) {
   Box3 box = bounds(world);
   const Vec3 margin = box.sizes() * 0.1;
   box = {box.min() - margin, box.max() + margin};
-  const auto count = static_cast<std::size_t>(std::llround(options.outliers / (1 - options.outliers) * static_cast<double>(samples.size())));
+  const auto count = static_cast<std::size_t>(std::llround(
+      options.outliers / (1 - options.outliers) * static_cast<double>(samples.size())));
   for (std::size_t i = 0; i < count; ++i) {
     Random random(options.seed, UINT64_MAX, i);
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
@@ -194,13 +207,17 @@ VirtualScan virtual_scan(const World& world, const VirtualScanOptions& options) 
   check(options);
   const RayScene scene(world);
   const std::vector<Vec3> poses = options.poses.empty() ? place_scanners(world) : options.poses;
-  if (poses.empty()) throw Error(Cause::nothing_found, "there is no place for a scanner: give its poses");
-  const auto real_points = static_cast<std::size_t>(std::llround(static_cast<double>(options.points) * (1 - options.outliers)));
-  std::vector<Sample> samples = options.points > 0 ? scan_points(world, scene, poses, options, real_points)
-                                                   : Scanner(world, scene, poses, options, options.resolution).run();
+  if (poses.empty())
+    throw Error(Cause::nothing_found, "there is no place for a scanner: give its poses");
+  const auto real_points = static_cast<std::size_t>(
+      std::llround(static_cast<double>(options.points) * (1 - options.outliers)));
+  std::vector<Sample> samples =
+      options.points > 0 ? scan_points(world, scene, poses, options, real_points)
+                         : Scanner(world, scene, poses, options, options.resolution).run();
   if (samples.empty()) throw Error(Cause::nothing_found, "the scanners see nothing of the world");
   add_outliers(world, options, poses.size(), samples);
-  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.pose < b.pose; });
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.pose < b.pose; });
 
   VirtualScan scan;
   scan.cloud.origin = world.frame.origin;

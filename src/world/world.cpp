@@ -9,7 +9,9 @@ namespace {
 // Twice the area that a loop goes around, as a vector along its normal.
 Vec3 doubled_area(const World& world, const Loop& loop) {
   Vec3 sum = Vec3::Zero();
-  const auto at = [&](std::size_t i) { return world.vertices[static_cast<std::size_t>(loop[i % loop.size()])]; };
+  const auto at = [&](std::size_t i) {
+    return world.vertices[static_cast<std::size_t>(loop[i % loop.size()])];
+  };
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += (at(i) - at(0)).cross(at(i + 1) - at(0));
   return sum;
 }

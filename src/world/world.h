@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The World: what a scan becomes, and all that exporters, checks and simulators see. docs/world.md describes the
-// file that holds it, world.json.
+// The World: what a scan becomes, and all that exporters, checks and simulators see. docs/world.md
+// describes the file that holds it, world.json.
 #pragma once
 
 #include <map>
@@ -24,8 +24,8 @@ enum class Kind { floor, ceiling, wall, other };
 // Whether a surface was seen, or was put where it must be though nothing saw it.
 enum class Source { measured, inferred };
 
-// A planar polygon. Its plane's normal points to the free side, from where `outer` is counter-clockwise and the holes
-// are clockwise.
+// A planar polygon. Its plane's normal points to the free side, from where `outer` is
+// counter-clockwise and the holes are clockwise.
 struct Surface {
   int id = 0;  // stable between runs; not an index
   Kind kind = Kind::other;
@@ -41,8 +41,8 @@ struct Surface {
 
 enum class OpeningKind { door, window, passage };
 
-// Where one can see or go through a surface. Its loop lies in the surface's plane: around one of its holes, or
-// along a notch in its outer loop.
+// Where one can see or go through a surface. Its loop lies in the surface's plane: around one of
+// its holes, or along a notch in its outer loop.
 struct Opening {
   int id = 0;
   OpeningKind kind = OpeningKind::passage;
@@ -55,8 +55,9 @@ struct Opening {
 
 struct OrientedBox {
   Vec3 center = Vec3::Zero();
-  Vec3 size = Vec3::Zero();                                           // [m] full edge lengths
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();       // from the box's axes to the world's
+  Vec3 size = Vec3::Zero();  // [m] full edge lengths
+  Eigen::Quaterniond rotation =
+      Eigen::Quaterniond::Identity();  // from the box's axes to the world's
   bool operator==(const OrientedBox& o) const {
     return center == o.center && size == o.size && rotation.coeffs() == o.rotation.coeffs();
   }
@@ -104,24 +105,23 @@ struct Room {
 
 // A way between two rooms.
 struct Door {
-  int opening = 0;  // id
+  int opening = 0;             // id
   std::array<int, 2> rooms{};  // ids
   bool operator==(const Door&) const = default;
 };
 
 struct Frame {
-  Vec3 origin = Vec3::Zero();        // [m] add this to the world's coordinates to get those of the scan file
-  Vec3 up = Vec3::UnitZ();           // against gravity
+  Vec3 origin =
+      Vec3::Zero();         // [m] add this to the world's coordinates to get those of the scan file
+  Vec3 up = Vec3::UnitZ();  // against gravity
   std::vector<std::string> assumed;  // what was assumed about the frame and why, in words
   bool operator==(const Frame&) const = default;
 };
 
-
-
 // Where a world comes from.
 struct Provenance {
   struct Input {
-    std::string file;         // name without folder
+    std::string file;  // name without folder
     std::size_t points = 0;
     std::string fingerprint;  // of the set of points: the same in any order
     bool operator==(const Input&) const = default;

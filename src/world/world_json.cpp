@@ -4,12 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
-#include "../error.h"
 #include "../files.h"
 
 namespace scanworld {
@@ -17,8 +13,6 @@ namespace scanworld {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// ---- writing ----
 
 Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -29,17 +23,20 @@ Json to_json(const std::vector<Vec3>& points) {
 }
 
 Json to_json(const Frame& f) {
-  return {{"origin", to_json(f.origin)}, {"up", to_json(f.up)}, {"unit", "m"}, {"assumed", f.assumed}};
+  return {
+      {"origin", to_json(f.origin)}, {"up", to_json(f.up)}, {"unit", "m"}, {"assumed", f.assumed}};
 }
 
 Json to_json(const Surface& s) {
-  Json j = {{"id", s.id},
-            {"kind", name_of(s.kind)},
-            {"source", name_of(s.source)},
-            {"plane", {{"normal", to_json(s.plane.normal)}, {"offset", s.plane.offset}}},
-            {"outer", s.outer},
-            {"holes", s.holes},
-            {"support", {{"points", s.support.points}, {"rms", s.support.rms}, {"coverage", s.support.coverage}}}};
+  Json j = {
+      {"id", s.id},
+      {"kind", name_of(s.kind)},
+      {"source", name_of(s.source)},
+      {"plane", {{"normal", to_json(s.plane.normal)}, {"offset", s.plane.offset}}},
+      {"outer", s.outer},
+      {"holes", s.holes},
+      {"support",
+       {{"points", s.support.points}, {"rms", s.support.rms}, {"coverage", s.support.coverage}}}};
   if (s.thickness) j["thickness"] = *s.thickness;
   if (s.color) j["color"] = {s.color->r, s.color->g, s.color->b};
   return j;
@@ -52,11 +49,15 @@ Json to_json(const Opening& o) {
 
 Json shape_json(const OrientedBox& b) {
   const Eigen::Vector4d q = b.rotation.coeffs();
-  return {{"box", {{"center", to_json(b.center)}, {"size", to_json(b.size)}, {"rotation", {q[0], q[1], q[2], q[3]}}}}};
+  return {{"box",
+           {{"center", to_json(b.center)},
+            {"size", to_json(b.size)},
+            {"rotation", {q[0], q[1], q[2], q[3]}}}}};
 }
 Json shape_json(const ConvexHull& h) { return {{"hull", {{"vertices", to_json(h.vertices)}}}}; }
 Json shape_json(const Cylinder& c) {
-  return {{"cylinder", {{"center", to_json(c.center)}, {"radius", c.radius}, {"height", c.height}}}};
+  return {
+      {"cylinder", {{"center", to_json(c.center)}, {"radius", c.radius}, {"height", c.height}}}};
 }
 Json shape_json(const ConvexPrism& p) {
   return {{"prism", {{"base", to_json(p.base)}, {"extrusion", to_json(p.extrusion)}}}};
@@ -102,7 +103,8 @@ Json to_json(const World& w) {
           {"provenance", to_json(w.provenance)}};
 }
 
-// Text with one item a line where it holds objects or lists of lists, and lists of plain values on one line.
+// Text with one item a line where it holds objects or lists of lists, and lists of plain values on
+// one line.
 void print(const Json& j, int indent, std::string& out) {
   const bool nested = j.is_object() || (j.is_array() && !j.empty() && j.begin()->is_structured());
   if (!nested || j.empty()) {
@@ -132,251 +134,7 @@ void print(const Json& j, int indent, std::string& out) {
   out += j.is_object() ? '}' : ']';
 }
 
-// ---- reading ----
-
-// A value in a file, with the path to it, so that errors can name the place.
-class Node {
- public:
-  Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw Error(Cause::bad_input, path_ + ": " + what);
-  }
-
-  // An object with no other keys than these; those that start with '?' may be missing.
-  void expect_keys(std::initializer_list<const char*> keys) const {
-    if (!json_.is_object()) fail("should be an object");
-    std::set<std::string> known;
-    for (const char* key : keys) {
-      const bool optional = key[0] == '?';
-      known.insert(key + optional);
-      if (!optional && !json_.contains(key)) fail(fmt::format("has no '{}'", key));
-    }
-    for (const auto& item : json_.items())
-      if (!known.count(item.key())) fail(fmt::format("has an unknown key '{}'", item.key().substr(0, 60)));
-  }
-
-  bool has(const char* key) const { return json_.contains(key); }
-  Node at(const char* key) const { return {json_.at(key), path_ + "." + key}; }
-  Node item(std::size_t i) const { return {json_.at(i), fmt::format("{}[{}]", path_, i)}; }
-  const Json& json() const { return json_; }
-
-  std::size_t size() const {
-    if (!json_.is_array()) fail("should be a list");
-    return json_.size();
-  }
-
-  double number() const {
-    if (!json_.is_number()) fail("should be a number");
-    return json_.get<double>();
-  }
-  int integer() const {
-    const auto value = json_.is_number_integer() ? json_.get<double>() : -1e300;
-    if (value < -2147483648.0 || value > 2147483647.0) fail("should be a whole number of 32 bits");
-    return json_.get<int>();
-  }
-  std::size_t count() const {
-    if (!json_.is_number_unsigned()) fail("should be a whole number, 0 or more");
-    return json_.get<std::size_t>();
-  }
-  std::string text() const {
-    if (!json_.is_string()) fail("should be a text");
-    return json_.get<std::string>();
-  }
-  Vec3 vector() const {
-    if (size() != 3) fail("should be a list of 3 numbers");
-    return {item(0).number(), item(1).number(), item(2).number()};
-  }
-
-  template <typename Read>
-  auto list(Read read) const {
-    std::vector<decltype(read(*this))> items;
-    for (std::size_t i = 0; i < size(); ++i) items.push_back(read(item(i)));
-    return items;
-  }
-  Loop integers() const {
-    return list([](const Node& n) { return n.integer(); });
-  }
-  std::vector<Vec3> vectors() const {
-    return list([](const Node& n) { return n.vector(); });
-  }
-
-  template <typename Enum>
-  Enum one_of(std::initializer_list<Enum> values) const {
-    std::string names;
-    for (Enum value : values) {
-      if (text() == name_of(value)) return value;
-      names += (names.empty() ? "" : ", ") + std::string(name_of(value));
-    }
-    fail(fmt::format("'{}' is none of {}", text().substr(0, 60), names));
-  }
-
- private:
-  const Json& json_;
-  std::string path_;
-};
-
-Frame read_frame(const Node& n) {
-  n.expect_keys({"origin", "up", "unit", "assumed"});
-  if (n.at("unit").text() != "m") n.at("unit").fail("the only unit is 'm'");
-  return {n.at("origin").vector(), n.at("up").vector(), n.at("assumed").list([](const Node& t) { return t.text(); })};
-}
-
-Color read_color(const Node& n) {
-  if (n.size() != 3) n.fail("should be a list of 3 numbers");
-  const auto channel = [&](std::size_t i) {
-    if (n.item(i).count() > 255) n.item(i).fail("should be at most 255");
-    return static_cast<std::uint8_t>(n.item(i).count());
-  };
-  return {channel(0), channel(1), channel(2)};
-}
-
-Surface read_surface(const Node& n) {
-  n.expect_keys({"id", "kind", "source", "plane", "outer", "holes", "support", "?thickness", "?color"});
-  const Node plane = n.at("plane"), support = n.at("support");
-  plane.expect_keys({"normal", "offset"});
-  support.expect_keys({"points", "rms", "coverage"});
-  Surface s;
-  s.id = n.at("id").integer();
-  s.kind = n.at("kind").one_of({Kind::floor, Kind::ceiling, Kind::wall, Kind::other});
-  s.source = n.at("source").one_of({Source::measured, Source::inferred});
-  s.plane = {plane.at("normal").vector(), plane.at("offset").number()};
-  s.outer = n.at("outer").integers();
-  s.holes = n.at("holes").list([](const Node& hole) { return hole.integers(); });
-  s.support = {support.at("points").count(), support.at("rms").number(), support.at("coverage").number()};
-  if (n.has("thickness")) s.thickness = n.at("thickness").number();
-  if (n.has("color")) s.color = read_color(n.at("color"));
-  return s;
-}
-
-Opening read_opening(const Node& n) {
-  n.expect_keys({"id", "kind", "surface", "loop", "width", "height", "evidence"});
-  return {.id = n.at("id").integer(),
-          .kind = n.at("kind").one_of({OpeningKind::door, OpeningKind::window, OpeningKind::passage}),
-          .surface = n.at("surface").integer(),
-          .loop = n.at("loop").integers(),
-          .width = n.at("width").number(),
-          .height = n.at("height").number(),
-          .evidence = n.at("evidence").text()};
-}
-
-OrientedBox read_box(const Node& n) {
-  n.expect_keys({"center", "size", "rotation"});
-  const Node q = n.at("rotation");
-  if (q.size() != 4) q.fail("should be a list of 4 numbers, x y z w");
-  return {n.at("center").vector(), n.at("size").vector(),
-          Eigen::Quaterniond(q.item(3).number(), q.item(0).number(), q.item(1).number(), q.item(2).number())};
-}
-ConvexHull read_hull(const Node& n) {
-  n.expect_keys({"vertices"});
-  return {n.at("vertices").vectors()};
-}
-Cylinder read_cylinder(const Node& n) {
-  n.expect_keys({"center", "radius", "height"});
-  return {n.at("center").vector(), n.at("radius").number(), n.at("height").number()};
-}
-ConvexPrism read_prism(const Node& n) {
-  n.expect_keys({"base", "extrusion"});
-  return {n.at("base").vectors(), n.at("extrusion").vector()};
-}
-
-Obstacle read_obstacle(const Node& n) {
-  n.expect_keys({"id", "?box", "?hull", "?cylinder"});
-  if (n.json().size() != 2) n.fail("should have one of box, hull and cylinder");
-  Obstacle o{.id = n.at("id").integer()};
-  if (n.has("box")) o.shape = read_box(n.at("box"));
-  if (n.has("hull")) o.shape = read_hull(n.at("hull"));
-  if (n.has("cylinder")) o.shape = read_cylinder(n.at("cylinder"));
-  return o;
-}
-
-Collider read_collider(const Node& n) {
-  n.expect_keys({"surface", "?box", "?prism"});
-  if (n.json().size() != 2) n.fail("should have one of box and prism");
-  Collider c{.surface = n.at("surface").integer()};
-  if (n.has("box")) c.shape = read_box(n.at("box"));
-  if (n.has("prism")) c.shape = read_prism(n.at("prism"));
-  return c;
-}
-
-Room read_room(const Node& n) {
-  n.expect_keys({"id", "name", "surfaces"});
-  return {n.at("id").integer(), n.at("name").text(), n.at("surfaces").integers()};
-}
-
-Door read_door(const Node& n) {
-  n.expect_keys({"opening", "rooms"});
-  const Node rooms = n.at("rooms");
-  if (rooms.size() != 2) rooms.fail("should be a list of 2 rooms");
-  return {n.at("opening").integer(), {rooms.item(0).integer(), rooms.item(1).integer()}};
-}
-
-Provenance read_provenance(const Node& n) {
-  n.expect_keys({"program", "inputs", "options"});
-  Provenance p{.program = n.at("program").text()};
-  p.inputs = n.at("inputs").list([](const Node& i) {
-    i.expect_keys({"file", "points", "fingerprint"});
-    return Provenance::Input{i.at("file").text(), i.at("points").count(), i.at("fingerprint").text()};
-  });
-  const Node options = n.at("options");
-  if (!options.json().is_object()) options.fail("should be an object");
-  for (const auto& item : options.json().items()) {
-    const Json& v = item.value();
-    OptionValue& value = p.options[item.key()];
-    if (v.is_boolean()) value = v.get<bool>();
-    else if (v.is_number_integer()) value = v.get<std::int64_t>();
-    else if (v.is_number()) value = v.get<double>();
-    else if (v.is_string()) value = v.get<std::string>();
-    else options.fail(fmt::format("'{}' should be a plain value", item.key().substr(0, 60)));
-  }
-  return p;
-}
-
-World read_document(const Node& n) {
-  if (!n.json().is_object() || !n.has("schema")) n.fail("is not a scanworld world: it has no 'schema'");
-  const Node schema = n.at("schema");
-  schema.expect_keys({"name", "version"});
-  if (schema.at("name").text() != "scanworld") schema.fail("the name is not 'scanworld'");
-  if (schema.at("version").integer() != kWorldSchemaVersion)
-    schema.fail(fmt::format("version {} cannot be read, only {}", schema.at("version").integer(), kWorldSchemaVersion));
-  n.expect_keys({"schema", "frame", "vertices", "surfaces", "openings", "obstacles", "colliders", "rooms", "doors",
-                 "provenance"});
-  return {.frame = read_frame(n.at("frame")),
-          .vertices = n.at("vertices").vectors(),
-          .surfaces = n.at("surfaces").list(read_surface),
-          .openings = n.at("openings").list(read_opening),
-          .obstacles = n.at("obstacles").list(read_obstacle),
-          .colliders = n.at("colliders").list(read_collider),
-          .rooms = n.at("rooms").list(read_room),
-          .doors = n.at("doors").list(read_door),
-          .provenance = read_provenance(n.at("provenance"))};
-}
-
 }  // namespace
-
-World parse_world(const std::string& text, const std::string& name) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception& e) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." is what the library says.
-    const std::string what = e.what();
-    const std::size_t start = what.find("] ");
-    throw Error(Cause::bad_input, name + ": " + (start == std::string::npos ? what : what.substr(start + 2)));
-  }
-  return read_document(Node(json, name + ": world"));
-}
-
-World read_world(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const std::filesystem::path file = std::filesystem::is_directory(path, ignored) ? path / "world.json" : path;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, ignored))
-    throw Error(Cause::bad_input, file.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parse_world(text.str(), file.string());
-}
 
 std::string world_text(const World& world) {
   std::string text;

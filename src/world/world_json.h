@@ -12,8 +12,9 @@ namespace scanworld {
 // The version of the format that is written, and the only one that is read.
 inline constexpr int kWorldSchemaVersion = 1;
 
-// Reads a world from world.json, or from the world.json in a folder. Throws bad_input naming the file and the place in
-// it: what is missing, of another type, unknown, or of another version. Nothing is left out silently.
+// Reads a world from world.json, or from the world.json in a folder. Throws bad_input naming the
+// file and the place in it: what is missing, of another type, unknown, or of another version.
+// Nothing is left out silently.
 World read_world(const std::filesystem::path& path);
 World parse_world(const std::string& text, const std::string& name = "world");
 
