@@ -43,7 +43,7 @@ Vec3 coarse_median(const RowSource& source) {
       std::vector<std::array<int, 3>> bins;
       std::size_t usable_here = 0;
       for (const Vec3& p : rows.points) {
-        if (!(p.cwiseAbs().maxCoeff() < kReach)) continue;
+        if (!(p.array().abs() < kReach).all()) continue;
         ++usable_here;
         const Vec3 bin = ((p - low) / width).array().floor();
         bins.push_back(

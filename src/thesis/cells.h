@@ -23,7 +23,7 @@ struct Cell {
 // The cell that `p` lies in; none where it is more than a million cells away.
 inline std::optional<Cell> cell_of(const Vec3& p, const Vec3& origin, double size) {
   const Vec3 at = ((p - origin) / size).array().floor();
-  if (!(at.cwiseAbs().maxCoeff() < Cell::kLimit)) return std::nullopt;
+  if (!(at.array().abs() < Cell::kLimit).all()) return std::nullopt;
   return Cell{static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()),
               static_cast<std::int32_t>(at.z())};
 }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kPart = 1 << 16;
 constexpr std::size_t kSample = 1 << 16;  // points that tell the rough size
-constexpr int kLevels = 16;  // sizes of cells that are looked at, each twice the one before
+constexpr int kLevels = 16;         // sizes of cells that are looked at, each twice the one before
+constexpr double kManyLone = 0.30;  // share of cells with a single point that is too large
 constexpr double kSparse =
     1.0 / 32;  // of the dense count: cells with less are not counted as part of the place
 
@@ -80,31 +81,81 @@ double middle_half(const std::vector<Vec3f>& points) {
   return largest;
 }
 
-// Calls visit(first, count) for each cell of the level that holds two points or more: where its
-// points begin.
+// Calls visit(first, count) for each cell of the level that holds points: where its points begin.
 template <typename Visit>
 void each_cell(const std::vector<std::uint64_t>& keys, int level, Visit visit) {
   for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
     while (last < keys.size() && keys[last] >> 3 * level == keys[first] >> 3 * level) ++last;
-    if (last - first > 1) visit(first, last - first);
+    visit(first, last - first);
   }
 }
 
-// The number of points that a quarter of the cells of a level exceed; 0 where none holds two.
-double dense_count(const std::vector<std::uint64_t>& keys, int level) {
+// How the points lie in the cells of a level.
+struct Filling {
+  double dense =
+      0;  // a quarter of the cells with more than one point hold more than this; 0 without such
+  double lone = 1;  // share of the cells that hold a single point
+};
+
+Filling filling_of(const std::vector<std::uint64_t>& keys, int level) {
   std::vector<std::size_t> counts;
-  each_cell(keys, level, [&](std::size_t, std::size_t count) { counts.push_back(count); });
-  if (counts.empty()) return 0;
+  std::size_t lone = 0;
+  each_cell(keys, level, [&](std::size_t, std::size_t count) {
+    if (count > 1)
+      counts.push_back(count);
+    else
+      ++lone;
+  });
+  if (counts.empty()) return {};
+  const double share = static_cast<double>(lone) / static_cast<double>(lone + counts.size());
   const auto at = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() * 3 / 4);
   std::nth_element(counts.begin(), at, counts.end());
-  return static_cast<double>(*at);
+  return {static_cast<double>(*at), share};
+}
+
+// The edge of cubes that typically hold the points asked for, between those of two levels; larger
+// by steps of a quarter octave, an octave at most, where too many of them would hold a single
+// point. (A scan from one place is dense around it and thin far away.) 0 where no cell of any level
+// holds two points.
+double find_cube_size(const std::vector<std::uint64_t>& keys, double finest,
+                      double points_per_cube) {
+  // From coarse to fine, so that many points in one place do not matter.
+  int level = kLevels;
+  std::vector<Filling> fillings(kLevels + 1);
+  fillings[kLevels] = filling_of(keys, kLevels);
+  for (; level > 1; --level) {
+    const std::size_t below = static_cast<std::size_t>(level) - 1;
+    fillings[below] = filling_of(keys, level - 1);
+    if (fillings[below].dense < points_per_cube) break;
+  }
+  const Filling &coarse = fillings[static_cast<std::size_t>(level)],
+                &fine = fillings[static_cast<std::size_t>(level) - 1];
+  if (coarse.dense == 0) return 0;
+  // Between two levels the count grows by a power of the size.
+  const double over =
+      fine.dense > 0 && fine.dense < coarse.dense
+          ? std::log2(coarse.dense / points_per_cube) / std::log2(coarse.dense / fine.dense)
+          : 0;
+  const double octave = level - std::clamp(over, 0.0, 1.0);  // the size is finest times two to this
+  const auto lone_at = [&](double at) {
+    const std::size_t low = static_cast<std::size_t>(at),
+                      high = std::min<std::size_t>(low + 1, kLevels);
+    return fillings[low].lone + (at - std::floor(at)) * (fillings[high].lone - fillings[low].lone);
+  };
+  double best = octave;
+  for (double at = octave; at <= std::min(octave + 1, static_cast<double>(kLevels)); at += 0.25) {
+    if (lone_at(at) < lone_at(best)) best = at;
+    if (lone_at(best) <= kManyLone) break;
+  }
+  return finest * std::exp2(best);
 }
 
 // The box of the points that lie in the box of the cells of a level, without the sparse ones.
 Box3 bounds_of(const std::vector<Vec3f>& points, const std::vector<std::uint64_t>& keys, int level,
                double finest) {
   Box3 outer;
-  const double enough = kSparse * dense_count(keys, level), size = std::ldexp(finest, level);
+  const double enough = std::max(2.0, kSparse * filling_of(keys, level).dense);
+  const double size = std::ldexp(finest, level);
   each_cell(keys, level, [&](std::size_t first, std::size_t count) {
     if (static_cast<double>(count) < enough) return;
     const Vec3 corner = corner_of(keys[first] >> 3 * level << 3 * level, finest);
@@ -136,21 +187,13 @@ Extent find_extent(const PointCloud& cloud, double points_per_cube) {
       keys.push_back(morton(*cell));
   radix_sort(keys, [](std::uint64_t key) { return key; });
 
-  Extent extent;
-  // From coarse to fine, so that copies of one point, which fill even the finest cells, do not
-  // matter.
-  int level = kLevels;
-  double count = dense_count(keys, level), finer = dense_count(keys, level - 1);
-  if (count == 0) return extent;
-  while (level > 1 && finer >= points_per_cube)
-    count = finer, finer = dense_count(keys, --level - 1);
-  // Between two levels the count grows by a power of the size.
-  const double over = finer > 0 && finer < count
-                          ? std::log2(count / points_per_cube) / std::log2(count / finer)
-                          : 0;
-  extent.cube_size = std::ldexp(finest, level) * std::exp2(-std::clamp(over, 0.0, 1.0));
-  extent.bounds = bounds_of(cloud.points, keys, std::min(level + 2, kLevels), finest);
-  return extent;
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());  // copies tell nothing
+
+  const double cube_size = find_cube_size(keys, finest, points_per_cube);
+  if (cube_size == 0) return {};
+  const int level =
+      std::clamp(static_cast<int>(std::lround(std::log2(cube_size / finest))) + 2, 0, kLevels);
+  return {bounds_of(cloud.points, keys, level, finest), cube_size};
 }
 
 }  // namespace scanworld::thesis

@@ -14,10 +14,9 @@ struct Extent {
 };
 
 // The step against outliers that the thesis names as missing: one point far away would stretch its
-// cubes. Space is divided into cells of powers of two of metres. Cells that hold a single point are
-// not counted; the median count of the others tells the density, and cells with far fewer than that
-// do not count for the bounds. So a point that is far from all others changes nothing, nor does the
-// order of the points.
+// cubes. Space is divided into cells of powers of two of metres. Copies of a point count once.
+// Cells with a single point do not count for the density, and sparse ones not for the bounds. So a
+// point that is far from all others changes nothing, nor does the order of the points.
 Extent find_extent(const PointCloud& cloud, double points_per_cube);
 
 }  // namespace scanworld::thesis

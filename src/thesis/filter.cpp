@@ -59,6 +59,16 @@ Vec3 median(const std::vector<Vec3f>& points, const Entry* first, const Entry* l
   return result;
 }
 
+// How many different points there are, counted up to `enough`: copies of one are no evidence.
+std::size_t count_different(const std::vector<Vec3f>& points, const Entry* first, const Entry* last,
+                            std::size_t enough) {
+  std::vector<Vec3f> different;
+  for (const Entry* e = first; e != last && different.size() < enough; ++e)
+    if (std::find(different.begin(), different.end(), points[e->point]) == different.end())
+      different.push_back(points[e->point]);
+  return different.size();
+}
+
 // How far the scan goes from the scanner: 95 % of the points are nearer. 0 where the scanner is not
 // known.
 double far_end(const PointCloud& cloud) {
@@ -89,11 +99,14 @@ FilteredPoints filter_points(const PointCloud& cloud, const FilterOptions& optio
                      : size_by_density(cloud, extent, options);
   if (!(result.delta > 0)) return result;
 
+  const auto min_points = static_cast<std::size_t>(options.min_points);
   const std::vector<Entry> entries =
       sort_into_cubes(cloud.points, extent.bounds.min(), result.delta);
   for (std::size_t first = 0, last = 0; first < entries.size(); first = last) {
     while (last < entries.size() && entries[last].cell == entries[first].cell) ++last;
-    if (last - first <= static_cast<std::size_t>(options.min_points)) continue;
+    if (count_different(cloud.points, &entries[first], &entries[last - 1] + 1, min_points + 1) <=
+        min_points)
+      continue;
     for (std::size_t k = first; k < last; ++k)
       result.from_input[entries[k].point] = static_cast<int>(result.points.size());
     result.points.push_back(median(cloud.points, &entries[first], &entries[last - 1] + 1));

@@ -16,7 +16,7 @@ struct FilterOptions {
   double depth_step =
       0;  // [1/m] a depth camera measures in steps of this times the depth squared; where it
           // is not 0, cubes are no smaller than two steps at the far end of the scan
-  int min_points = 1;  // cubes with no more points than this are outliers
+  int min_points = 1;  // cubes with no more different points are outliers
 };
 
 struct FilteredPoints {

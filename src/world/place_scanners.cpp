@@ -39,11 +39,14 @@ std::vector<Vec3> standing_places(const World& world, const RayScene& scene,
         const Vec3 place = flat + up * (options.height - floor.plane.signed_distance(flat) / rise);
         const auto below = scene.cast(place, -up);
         if (!below || !below->is_surface || below->index != s) continue;
+        // Room for the scanner, and for the legs that it stands on.
         bool clear = true;
         for (int d = 0; d < 16 && clear; ++d) {
           const double angle = 2 * M_PI * d / 16;
-          clear = scene.is_free(place, place + options.clearance * (std::cos(angle) * ground.u +
-                                                                    std::sin(angle) * ground.v));
+          const Vec3 aside =
+              options.clearance * (std::cos(angle) * ground.u + std::sin(angle) * ground.v);
+          const Vec3 legs = place - 0.8 * options.height * up;
+          clear = scene.is_free(place, place + aside) && scene.is_free(legs, legs + aside);
         }
         if (clear) places.push_back(place);
       }
@@ -57,10 +60,14 @@ std::vector<Vec3> place_scanners(const World& world, const PlaceOptions& options
   const RayScene scene(world);
   const std::vector<Vec3> places = standing_places(world, scene, options);
   std::vector<std::vector<char>> sees(places.size());
+  std::vector<double> distances(places.size());  // to all that is seen, together
   parallel_for(places.size(), [&](std::size_t i) {
     sees[i].resize(places.size());
-    for (std::size_t k = 0; k < places.size(); ++k)
-      sees[i][k] = scene.is_free(places[i], places[k]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double distance = (places[i] - places[k]).norm();
+      sees[i][k] = distance <= options.reach && scene.is_free(places[i], places[k]);
+      if (sees[i][k]) distances[i] += distance;
+    }
   });
   std::vector<char> seen(places.size());
   std::vector<Vec3> chosen;
@@ -70,7 +77,9 @@ std::vector<Vec3> place_scanners(const World& world, const PlaceOptions& options
     for (std::size_t i = 0; i < places.size(); ++i) {
       std::ptrdiff_t gain = 0;
       for (std::size_t k = 0; k < places.size(); ++k) gain += sees[i][k] && !seen[k];
-      if (gain > most) most = gain, best = i;
+      // Of places that see as much, one in the middle of it.
+      if (gain > most || (gain == most && gain > 0 && distances[i] < distances[best]))
+        most = gain, best = i;
     }
     if (most == 0) return chosen;
     chosen.push_back(places[best]);

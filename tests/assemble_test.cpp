@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "world/assemble.h"
+
+#include "support/scenes.h"
+#include "world/validate.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+
+namespace {
+
+FoundSurface level(double x0, double y0, double x1, double y1, double z, bool up) {
+  FoundSurface s{.plane = {up ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitZ()), up ? -z : z},
+                 .outer = {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}};
+  if (!up) std::reverse(s.outer.begin(), s.outer.end());
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("surfaces that meet share their vertices") {
+  const World world = small_world();
+  CHECK(validate(world).empty());
+  CHECK(world.vertices.size() == 4 + 2 + 4);
+  CHECK(world.surfaces[0].id == 0);
+  CHECK(world.surfaces[1].id == 1);
+}
+
+TEST_CASE("vertices nearer than a micrometre are one") {
+  FoundSurface a = level(0, 0, 1, 1, 0, true), b = level(1, 0, 2, 1, 0, true);
+  b.outer[0].x() += 3e-7;
+  CHECK(assemble_world({a, b}, {}).vertices.size() == 6);
+}
+
+TEST_CASE("floor, ceiling, wall and table are told apart by slope, facing and place") {
+  const FoundSurface floor = level(0, 0, 5, 4, 0, true), ceiling = level(0, 0, 5, 4, 2.7, false),
+                     table = level(1, 1, 2, 2, 0.75, true);
+  const FoundSurface upper_floor = level(0, 0, 4, 4, 3, true);
+  FoundSurface wall{.plane = {Vec3::UnitY(), 0},
+                    .outer = {{0, 0, 0}, {0, 0, 2.7}, {5, 0, 2.7}, {5, 0, 0}}};
+  FoundSurface edge{.plane = {Vec3::UnitY(), -1},
+                    .outer = {{1, 1, 0.7}, {1, 1, 0.75}, {2, 1, 0.75}, {2, 1, 0.7}}};
+  const World world = assemble_world({floor, ceiling, wall, table, edge, upper_floor}, {});
+  const Kind expected[] = {Kind::floor, Kind::ceiling, Kind::wall,
+                           Kind::other, Kind::other,   Kind::floor};
+  for (std::size_t i = 0; i < 6; ++i) CHECK(world.surfaces[i].kind == expected[i]);
+}
+
+TEST_CASE("a place that is tilted, or in a camera's frame, is classified by its own up") {
+  const FoundSurface floor = level(0, 0, 5, 4, 0, true),
+                     wall{.plane = {Vec3::UnitY(), 0},
+                          .outer = {{0, 0, 0}, {0, 0, 2.7}, {5, 0, 2.7}, {5, 0, 0}}};
+  const Eigen::Quaterniond to_camera(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));
+  const auto turned = [&](FoundSurface s) {
+    s.plane.normal = to_camera * s.plane.normal;
+    for (Vec3& v : s.outer) v = to_camera * v;
+    return s;
+  };
+  const World world = assemble_world({turned(floor), turned(wall)}, {.up = -Vec3::UnitY()});
+  CHECK(world.surfaces[0].kind == Kind::floor);
+  CHECK(world.surfaces[1].kind == Kind::wall);
+}

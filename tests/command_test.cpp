@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command as a user runs it: what it prints, leaves behind and returns.
+#include <nlohmann/json.hpp>
+
+#include "scan/read_scan.h"
+#include "scan/write_scan.h"
+#include "support/scenes.h"
+#include "world/validate.h"
+#include "world/world_json.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+
+fs::path room_scan(const TempFolder& folder) {
+  const fs::path path = folder / "room.ply";
+  write_scan(path, room_points({5, 4, 2.7}, 0.03, 0.005));
+  return path;
+}
+
+// Nothing in the folder but what was there before.
+std::size_t entries(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("build writes its folder with world, report and exports") {
+  const TempFolder folder;
+  const Outcome outcome = run({"build", room_scan(folder), "-o", folder / "world", "--labels"});
+  CHECK_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "6 surfaces (1 floor, 1 ceiling, 4 wall, 0 other) and 12 triangles"));
+  CHECK(outcome.err.empty());
+  for (const char* name : {"world.json", "report.json", "world.obj", "world.mtl", "world.stl",
+                           "world.glb", "labels.ply"})
+    CHECK(fs::exists(folder / "world" / name));
+  CHECK(entries(folder / "world") == 7);
+  CHECK(validate(read_world(folder / "world")).empty());
+  CHECK(entries(folder.path()) == 2);
+
+  const Json report = Json::parse(read_file(folder / "world" / "report.json"));
+  CHECK(report["filtering"]["points_before"] == read_scan({folder / "room.ply"}).points.size());
+  CHECK(report["filtering"]["points_after"].get<int>() > 1000);
+  CHECK(report["clusters"]["placed"].get<int>() >= 6);
+  CHECK(report["clusters"]["walls"] == 6);
+  CHECK(report["triangles"] == 12);
+  CHECK(report["peak_memory_mb"].get<double>() > 1);
+  CHECK(report["world_hash"] == world_hash(read_world(folder / "world")));
+  CHECK(report["stages"].size() == 12);
+  CHECK(report["complete_seconds"].get<double>() > 0);
+}
+
+TEST_CASE("build replaces a world of its own and no other folder") {
+  const TempFolder folder;
+  const fs::path scan = room_scan(folder);
+  CHECK(run({"build", scan, "-o", folder / "w"}).code == 0);
+  CHECK(run({"build", scan, "-o", folder / "w", "--export", "none"}).code == 0);
+  CHECK(entries(folder / "w") == 2);
+  fs::create_directory(folder / "mine");
+  write_file(folder / "mine/thesis.tex", "years of work");
+  const Outcome outcome = run({"build", scan, "-o", folder / "mine"});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.err, "mine"));
+  CHECK(read_file(folder / "mine/thesis.tex") == "years of work");
+  CHECK(entries(folder / "mine") == 1);
+}
+
+TEST_CASE(
+    "the same bytes of world.json for 1, 2 and 4 threads, and for the same points in another "
+    "order") {
+  const TempFolder folder;
+  fs::create_directory(folder / "a");
+  fs::create_directory(folder / "b");
+  PointCloud cloud = read_scan({in_project("data/office.ply")});
+  cloud.points.resize(150000);
+  write_scan(folder / "a/scan.ply", cloud);
+  shuffle_points(cloud, 5);
+  write_scan(folder / "b/scan.ply", cloud);
+  std::string first;
+  for (const char* threads : {"1", "2", "4"})
+    for (const char* order : {"a", "b"}) {
+      REQUIRE(run({"build", folder / order / "scan.ply", "-o", folder / "w", "--export", "none",
+                   "--threads", threads})
+                  .code == 0);
+      const std::string text = read_file(folder / "w" / "world.json");
+      if (first.empty()) first = text;
+      CHECK(text == first);
+    }
+}
+
+TEST_CASE("--json prints the report, --progress json and -v tell of the stages on stderr") {
+  const TempFolder folder;
+  const fs::path scan = room_scan(folder);
+  const Outcome quiet = run({"build", scan, "-o", folder / "w", "--json"});
+  CHECK(Json::parse(quiet.out) == Json::parse(read_file(folder / "w" / "report.json")));
+  CHECK(quiet.err.empty());
+  const Outcome loud = run({"build", scan, "-o", folder / "w", "-v", "--progress", "json"});
+  CHECK(contains(loud.err, "{\"stage\":\"Spreading clusters\""));
+  CHECK(contains(loud.err, "Filtering"));
+  CHECK(
+      contains(run({"build", scan, "-o", folder / "w", "--progress", "bar"}).err, "Triangulation"));
+}
+
+TEST_CASE(
+    "options come from presets, a file and the command line, the later over the earlier, and are "
+    "recorded") {
+  const TempFolder folder;
+  const fs::path scan = room_scan(folder),
+                 config = write_file(folder / "c.toml",
+                                     "[thesis.filter]\nmin_size = 0.07\nmin_points = 2\n");
+  const Outcome outcome = run({"build", scan, "-o", folder / "w", "--preset", "fast", "--config",
+                               config, "--set", "thesis.filter.min_points=3"});
+  CHECK_MESSAGE(outcome.code == 0, outcome.err);
+  const auto options = read_world(folder / "w").provenance.options;
+  CHECK(options.at("thesis.filter.points_per_cube") == OptionValue(16.0));
+  CHECK(options.at("thesis.filter.min_size") == OptionValue(0.07));
+  CHECK(options.at("thesis.filter.min_points") == OptionValue(std::int64_t{3}));
+  CHECK(options.at("preset") == OptionValue(std::string("fast")));
+  CHECK(contains(run({"build", "--options"}).out, "thesis.filter.min_size"));
+}
+
+TEST_CASE(
+    "a mistake in the request is found before the scan is read, with exit code 2 or the file "
+    "named") {
+  const TempFolder folder;
+  const fs::path absent = folder / "absent.ply", out = folder / "w";
+  CHECK(run({}).code == 2);
+  CHECK(run({"fly"}).code == 2);
+  CHECK(run({"build"}).code == 2);
+  CHECK(run({"build", absent}).code == 2);
+  CHECK(run({"build", absent, "-o", out, "--method", "magic"}).code == 2);
+  CHECK(run({"build", absent, "-o", out, "--preset", "space"}).code == 2);
+  CHECK(run({"build", absent, "-o", out, "--threads", "-1"}).code == 2);
+  CHECK(run({"build", absent, "-o", out, "--export", "stl,blend"}).code == 2);
+  const Outcome unknown = run({"build", absent, "-o", out, "--set", "thesis.filter.minsize=1"});
+  CHECK(unknown.code == 2);
+  CHECK(contains(unknown.err, "thesis.filter.min_size"));
+  CHECK(run({"build", absent, "-o", out, "--set", "thesis.filter.min_size"}).code == 2);
+  CHECK(run({"build", absent, "-o", out, "--set", "thesis.filter.min_size=-1"}).code == 2);
+  const Outcome config = run({"build", absent, "-o", out, "--config",
+                              write_file(folder / "c.toml", "\n[thesis.filter]\nmin_sise = 1\n")});
+  CHECK(config.code == 2);
+  CHECK(contains(config.err, "c.toml:3:"));
+  const Outcome broken =
+      run({"build", absent, "-o", out, "--config", write_file(folder / "d.toml", "a = = 1\n")});
+  CHECK(broken.code == 3);
+  CHECK(contains(broken.err, "d.toml:1:"));
+  CHECK(run({"build", absent, "-o", out, "--poses", folder / "no.txt"}).code == 3);
+  CHECK_FALSE(fs::exists(out));
+}
+
+TEST_CASE(
+    "bad scans give a message with the file, exit code 3 or 4, no output, and take neither time "
+    "nor memory") {
+  const TempFolder folder;
+  const auto xyz = [](auto point, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += point(i) + "\n";
+    return text;
+  };
+  const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex ",
+                    floats = "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  struct Bad {
+    const char* name;
+    std::string bytes;
+    int code;
+    const char* told;
+  };
+  const std::vector<Bad> cases = {
+      {"empty.ply", "", 3, "empty"},
+      {"cut_header.ply", ply, 3, "header"},
+      {"cut_body.ply", ply + "1000" + floats + std::string(11999, 'x'), 3, "room for 999"},
+      {"huge.ply", ply + "1000000000000" + floats + "1234", 3, "1000000000000"},
+      {"nan.xyz", xyz([](int) { return std::string("nan inf 1"); }, 100), 3, "finite"},
+      {"one.xyz", "1 2 3\n", 4, "no plane"},
+      {"equal.xyz", xyz([](int) { return std::string("1 2 3"); }, 1000), 4, "no plane"},
+      {"million.xyz", xyz([](int) { return std::string("1 2 3"); }, 1000000), 4, "no plane"},
+      {"line.xyz", xyz([](int i) { return std::to_string(0.01 * i) + " 0 0"; }, 5000), 4,
+       "no plane"},
+      {"word.xyz", xyz([](int i) { return std::string(i == 700 ? "1 two 3" : "1 2 3"); }, 1000), 3,
+       ":701:"},
+      {"binary.xyz", std::string(5000, '\0'), 3, "binary.xyz"},
+      {"short.xyz", "1 2\n3 4\n", 3, ":1:"},
+  };
+  for (const Bad& bad : cases) {
+    const fs::path scan = write_file(folder / bad.name, bad.bytes);
+    const std::size_t before = entries(folder.path());
+    const Outcome outcome = run({"build", scan, "-o", folder / "w"});
+    INFO(bad.name << ": " << outcome.err);
+    CHECK(outcome.code == bad.code);
+    CHECK(contains(outcome.err, bad.told));
+    if (bad.code == 3) CHECK(contains(outcome.err, bad.name));
+    CHECK(outcome.out.empty());
+    CHECK(entries(folder.path()) == before);
+    CHECK(outcome.seconds < 20);  // under sanitizers too
+    CHECK(outcome.peak_kb < 1500000);
+    CHECK(run({"info", scan}).code == (bad.code == 3 ? 3 : 0));
+  }
+  CHECK(run({"build", folder / "absent.ply", "-o", folder / "w"}).code == 3);
+  CHECK(run({"build", folder.path(), "-o", folder / "w"}).code == 3);
+}
+
+TEST_CASE("NaN among good points costs those points, not the world, and is told") {
+  const TempFolder folder;
+  std::string text = "nan 1 2\n";
+  for (const Vec3f& p : room_points({5, 4, 2.7}, 0.05, 0.005).points)
+    text +=
+        std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+  const Outcome outcome =
+      run({"build", write_file(folder / "s.xyz", text + "1 inf 3\n"), "-o", folder / "w"});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "2 of "));
+  CHECK(contains(outcome.err, "the first is point 1"));
+  CHECK(read_world(folder / "w").surfaces.size() == 6);
+}
+
+TEST_CASE("a place that may not be written to is told before the scan is read") {
+  const TempFolder folder;
+  const fs::path scan = room_scan(folder);
+  const Outcome in_file = run({"build", scan, "-o", scan / "w"});
+  CHECK(in_file.code == 1);
+  CHECK(contains(in_file.err, "room.ply"));
+  CHECK(run({"build", scan, "-o", "/proc/nowhere"}).code == 1);
+  CHECK(run({"export", in_project("worlds/room.json"), "-o", "/proc/nowhere.stl"}).code == 1);
+  CHECK(run({"scan", in_project("worlds/room.json"), "-o", "/proc/nowhere.ply", "--points", "1000"})
+            .code == 1);
+}
+
+TEST_CASE("info tells of scans, meshes and worlds, as text and as JSON") {
+  const TempFolder folder;
+  const Json scan = Json::parse(run({"info", in_project("data/office.ply"), "--json"}).out);
+  CHECK(scan["is"] == "scan");
+  CHECK(scan["points"] == 390000);
+  const Json world = Json::parse(run({"info", in_project("worlds/office.json"), "--json"}).out);
+  CHECK(world["is"] == "world");
+  CHECK(world["rooms"] == 6);
+  CHECK(run({"export", in_project("worlds/office.json"), "-o", folder / "o.glb"}).code == 0);
+  const Json mesh = Json::parse(run({"info", folder / "o.glb", "--json"}).out);
+  CHECK(mesh["is"] == "mesh");
+  CHECK(mesh["triangles"].get<int>() > 300);
+  CHECK(contains(run({"info", in_project("worlds/office.json")}).out, "rooms          6"));
+}
+
+TEST_CASE("check says what is wrong with a world, with exit code 5") {
+  const TempFolder folder;
+  const Outcome good = run({"check", in_project("worlds/office.json")});
+  CHECK(good.code == 0);
+  CHECK(contains(good.out, "valid"));
+  World broken = small_world();
+  broken.vertices[2].z() = 0.5;
+  write_world(folder / "bad.json", broken);
+  const Outcome bad = run({"check", folder / "bad.json"});
+  CHECK(bad.code == 5);
+  CHECK(contains(bad.out, "surface 0: vertex 2 of outer is 0.5000 m off the plane"));
+  const Json json = Json::parse(run({"check", folder / "bad.json", "--json"}).out);
+  CHECK(json["valid"] == false);
+  CHECK(json["reasons"].size() == 1);
+  CHECK(run({"check", write_file(folder / "no.json", "{")}).code == 3);
+}
+
+TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
+  const TempFolder folder;
+  CHECK(run({"scan", in_project("worlds/room.json"), "-o", folder / "s.ply", "--points", "100000",
+             "--labels", "--save-poses", folder / "p.txt"})
+            .code == 0);
+  CHECK(read_scan({folder / "s.labels.ply"}).points.size() == 100000);
+  const Outcome outcome =
+      run({"build", folder / "s.ply", "--poses", folder / "p.txt", "-o", folder / "w"});
+  CHECK_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(run({"check", folder / "w"}).code == 0);
+  const World world = read_world(folder / "w");
+  const Vec3 size = bounds(world).sizes();  // reveals of door and window may be there or not
+  CHECK((size - Vec3(5, 4, 2.7)).minCoeff() > -0.1);
+  CHECK((Vec3(5.1, 4.3, 2.7) - size).minCoeff() > -0.1);
+}
+
+TEST_CASE("each verb helps with an example") {
+  for (const char* verb : {"build", "info", "export", "scan", "check"}) {
+    const Outcome outcome = run({verb, "--help"});
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out, std::string("scanworld ") + verb));
+    CHECK(contains(outcome.out, "Example"));
+  }
+  CHECK(contains(run({"--version"}).out, "scanworld 0."));
+}

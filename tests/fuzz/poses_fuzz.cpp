@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz.h"
+#include "scan/read_scan.h"
+
+void fuzz(const std::string& bytes) {
+  const scanworld::fuzzing::MemoryFile file(bytes);
+  scanworld::read_poses(file.path());
+}

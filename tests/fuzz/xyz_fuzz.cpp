@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz.h"
+#include "scan/xyz.h"
+
+void fuzz(const std::string& bytes) {
+  const scanworld::fuzzing::MemoryFile file(bytes);
+  scanworld::assemble_cloud({scanworld::open_xyz(file.path())});
+}

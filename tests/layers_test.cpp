@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The house keeps its rule of one direction: who may include whom, and which library is seen where.
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "support/support.h"
+
+using namespace scanworld::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The room of a file of the project: "ground", "scan", "thesis", "world", "reconstruct",
+// "exporters", "apps" ...
+std::string room_of(const fs::path& file) {
+  static const std::set<std::string> ground = {"types",   "error", "parallel", "progress",
+                                               "options", "files", "report",   "version"};
+  const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
+  const std::string top = path.begin()->string();
+  if (top != "src") return top;
+  if (std::distance(path.begin(), path.end()) == 3) return (++path.begin())->string();
+  return ground.count(path.stem().string()) ? "ground" : "reconstruct";
+}
+
+// What the files of a room may include, beside their own.
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"ground", {}},
+    {"scan", {"ground"}},
+    {"thesis", {"ground"}},
+    {"world", {"ground"}},
+    {"reconstruct", {"ground", "scan", "thesis", "world"}},
+    {"exporters", {"ground", "world"}},
+    {"apps", {"ground", "scan", "thesis", "world", "reconstruct", "exporters"}},
+    {"bench", {"ground", "scan", "thesis", "world", "reconstruct", "exporters"}},
+};
+
+// Where the headers of a library may be included.
+const std::vector<std::pair<std::regex, std::set<std::string>>> kLibraries = {
+    {std::regex("(tbb|oneapi)/.*"), {"src/parallel.cpp"}},
+    {std::regex("assimp/.*"), {"exporters/assimp.cpp"}},
+    {std::regex("tiny_gltf.h"), {"exporters/gltf.cpp"}},
+    {std::regex("embree3/.*"), {"src/world/ray_scene.cpp"}},
+    {std::regex("geos.*"), {"src/world/geos.cpp"}},
+    {std::regex("libqhull.*"), {"src/world/solids.cpp"}},
+    {std::regex("zlib.h"), {"src/scan/file.cpp"}},
+    {std::regex("liblzf/.*"), {"src/scan/pcd.cpp"}},
+    {std::regex("toml.*"), {"apps/settings.cpp"}},
+};
+
+struct Include {
+  fs::path from;
+  int line;
+  std::string name;
+  bool quoted;
+};
+
+std::vector<Include> all_includes() {
+  std::vector<Include> includes;
+  const std::regex pattern("^\\s*#include ([<\"])([^>\"]+)[>\"]");
+  for (const char* folder : {"src", "exporters", "apps", "bench"})
+    for (const auto& entry : fs::recursive_directory_iterator(in_project(folder))) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      std::ifstream file(entry.path());
+      std::string text;
+      for (int line = 1; std::getline(file, text); ++line)
+        if (std::smatch match; std::regex_search(text, match, pattern))
+          includes.push_back({entry.path().lexically_normal(), line, match[2], match[1] == "\""});
+    }
+  return includes;
+}
+
+// The file of the project that an include means.
+fs::path resolve(const Include& include) {
+  for (const fs::path& base : {include.from.parent_path(), in_project("src"), in_project("")})
+    if (fs::exists(base / include.name)) return (base / include.name).lexically_normal();
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("rooms include only what stands below them") {
+  std::size_t checked = 0;
+  for (const Include& include : all_includes()) {
+    if (!include.quoted) continue;
+    const fs::path target = resolve(include);
+    INFO(include.from.string() << ":" << include.line << " includes " << include.name);
+    REQUIRE_FALSE(target.empty());
+    const std::string from = room_of(include.from), to = room_of(target);
+    REQUIRE(kMayInclude.count(from) == 1);
+    CHECK((from == to || kMayInclude.at(from).count(to) == 1));
+    ++checked;
+  }
+  CHECK(checked > 150);
+}
+
+TEST_CASE(
+    "only reconstruct sees all stages, and a library is seen by the one file that is there for "
+    "it") {
+  for (const Include& include : all_includes()) {
+    const std::string from =
+        include.from.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal()).string();
+    for (const auto& [library, allowed] : kLibraries)
+      if (!include.quoted && std::regex_match(include.name, library)) {
+        INFO(from << ":" << include.line << " includes " << include.name);
+        CHECK(allowed.count(from) == 1);
+      }
+  }
+}

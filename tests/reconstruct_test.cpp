@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct.h"
+
+#include "parallel.h"
+#include "scan/read_scan.h"
+#include "support/scenes.h"
+#include "world/validate.h"
+#include "world/virtual_scan.h"
+#include "world/world_json.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+
+namespace {
+
+PointCloud scan_of(const char* world, std::size_t points, std::uint64_t seed = 1) {
+  return virtual_scan(read_world(in_project(std::string("worlds/") + world + ".json")),
+                      {.points = points, .outliers = 0.01, .mixed = 0.3, .seed = seed})
+      .cloud;
+}
+
+}  // namespace
+
+TEST_CASE("a box of a room comes out as six rectangles with its own size") {
+  const ReconstructResult result = reconstruct(room_points({5, 4, 2.7}, 0.03, 0.005));
+  CHECK(validate(result.world).empty());
+  REQUIRE(result.world.surfaces.size() == 6);
+  CHECK(result.world.vertices.size() == 8);
+  CHECK((bounds(result.world).sizes() - Vec3(5, 4, 2.7)).norm() < 0.01);
+  int kinds[4] = {};
+  for (const Surface& s : result.world.surfaces) ++kinds[static_cast<int>(s.kind)];
+  CHECK(kinds[static_cast<int>(Kind::floor)] == 1);
+  CHECK(kinds[static_cast<int>(Kind::ceiling)] == 1);
+  CHECK(kinds[static_cast<int>(Kind::wall)] == 4);
+  CHECK(result.report.noise == doctest::Approx(0.005).epsilon(0.1));
+}
+
+TEST_CASE("the world's text is the same for any number of threads and any order of the points") {
+  PointCloud cloud = scan_of("office", 120000);
+  const std::string before = world_text(reconstruct(cloud).world);
+  for (int threads : {1, 2, 3, 4}) {
+    const ThreadLimit limit(threads);
+    CHECK(world_text(reconstruct(cloud).world) == before);
+  }
+  for (std::uint64_t seed : {1u, 2u}) {
+    shuffle_points(cloud, seed);
+    CHECK(world_text(reconstruct(cloud).world) == before);
+  }
+}
+
+TEST_CASE("one point a kilometre away changes nothing") {
+  PointCloud cloud = scan_of("room", 60000);
+  const std::string before = world_text(reconstruct(cloud).world);
+  for (const Vec3f& stray : {Vec3f(1000, 0, 0), Vec3f(-700, 700, 10), Vec3f(0, 0, -1000)}) {
+    cloud.points.push_back(stray);
+    CHECK(world_text(reconstruct(cloud).world) == before);
+    cloud.points.pop_back();
+  }
+}
+
+TEST_CASE("a scan without noise, exactly flat, makes a world too") {
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.03, 0);
+  CHECK(reconstruct(cloud).world.surfaces.size() == 6);
+  PointCloud flat;
+  for (int i = 0; i < 200; ++i)
+    for (int k = 0; k < 200; ++k)
+      flat.points.emplace_back(0.02f * static_cast<float>(i), 0.02f * static_cast<float>(k), 1);
+  const World world = reconstruct(flat).world;
+  CHECK(world.surfaces.size() == 1);
+  CHECK(validate(world).empty());
+}
+
+TEST_CASE("scans that hold no plane are told as such, in no time") {
+  const auto nothing = [](const PointCloud& cloud) {
+    return error_of(Cause::nothing_found, [&] { reconstruct(cloud); });
+  };
+  nothing({});
+  nothing(cloud_of({{1, 2, 3}}));
+  nothing(cloud_of(std::vector<Vec3>(1000000, Vec3(1, 2, 3))));
+  std::vector<Vec3> line;
+  for (int i = 0; i < 10000; ++i) line.emplace_back(0.001 * i, 0.002 * i, 0);
+  nothing(cloud_of(line));
+}
+
+TEST_CASE("labels name surfaces that exist, and the report tells all stages of the thesis") {
+  const PointCloud cloud = scan_of("room", 60000);
+  const ReconstructResult result = reconstruct(cloud);
+  REQUIRE(result.labels.size() == cloud.points.size());
+  std::vector<std::size_t> counts(result.world.surfaces.size());
+  for (std::int32_t label : result.labels) {
+    REQUIRE(label < static_cast<std::int32_t>(counts.size()));
+    if (label >= 0) ++counts[static_cast<std::size_t>(label)];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    CHECK(counts[i] == result.world.surfaces[i].support.points);
+  for (const char* name : {"Filtering", "Placing small clusters", "Spreading clusters",
+                           "Fitting to planes", "Finding polygons border",
+                           "Polygons vertices fitting", "Vertices reduction", "Triangulation"})
+    CHECK(std::any_of(result.report.stages.begin(), result.report.stages.end(),
+                      [&](const StageReport& s) { return s.name == name; }));
+}
+
+TEST_CASE("progress rises from stage to stage, and throwing from it stops the work") {
+  const PointCloud cloud = room_points({5, 4, 2.7}, 0.05, 0.005);
+  std::vector<double> fractions;
+  reconstruct(cloud, {}, [&](std::string_view, double fraction) { fractions.push_back(fraction); });
+  CHECK(fractions.size() >= 8);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.back() < 1);
+  CHECK_THROWS_AS(reconstruct(cloud, {},
+                              [](std::string_view stage, double) {
+                                if (stage == "Spreading clusters")
+                                  throw std::runtime_error("enough");
+                              }),
+                  std::runtime_error);
+}
+
+TEST_CASE("a camera's image is levelled by its largest floor, and the assumption is noted") {
+  PointCloud cloud;
+  Random random(1);
+  const double pitch = 0.5;
+  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(pitch, Vec3::UnitX()));
+  // In the frame of a level camera 1.2 m above the floor: y down, z ahead.
+  add_rectangle(cloud, {-2, 1.2, 1}, {4, 0, 0}, {0, 0, 3}, 0.02, 0.003, random);
+  add_rectangle(cloud, {-2, -1, 4}, {4, 0, 0}, {0, 2.2, 0}, 0.02, 0.003, random);
+  for (Vec3f& p : cloud.points) p = (tilt * p.cast<double>()).cast<float>();
+  cloud.camera_frame = true;
+  cloud.viewpoints = {Vec3::Zero()};
+  const World world = reconstruct(cloud).world;
+  CHECK((world.frame.up - tilt * -Vec3::UnitY()).norm() < 0.01);
+  CHECK(world.surfaces[0].kind == Kind::floor);
+  CHECK(world.surfaces[1].kind == Kind::wall);
+  CHECK(contains(world.frame.assumed.back(), "camera"));
+}
