@@ -59,7 +59,7 @@ std::vector<Vec3f> sample(const std::vector<Vec3f>& points) {
   for (const Vec3f& p : points) {
     std::uint32_t hash = 0;
     for (float v : p) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1 ^ hash >> 15;
-    if (hash >> (32 - shift) == 0 || shift == 0) chosen.push_back(p);
+    if (shift == 0 || hash >> (32 - shift) == 0) chosen.push_back(p);
   }
   return chosen;
 }

@@ -43,7 +43,7 @@ struct PlaceOptions {
   double height = 1.5;      // [m] above the floor
   double spacing = 0.5;     // [m] between the places that are tried
   double clearance = 0.35;  // [m] to the nearest surface
-  double reach = 4;         // [m] what is farther away counts as not seen
+  double reach = 3;         // [m] what is farther away counts as not seen
 };
 
 // Positions from which scanners together see all places over the floors: the one that sees most of
