@@ -167,7 +167,8 @@ def main():
     both = Image.new('RGB', (2 * SIZE, SIZE), tuple(int(c) for c in BACKGROUND))
     both.paste(scan.picture(), (0, 0))
     both.paste(world.picture(), (SIZE, 0))
-    both.resize((SIZE * 4 // 3, SIZE * 2 // 3), Image.LANCZOS).save(args.out, optimize=True)
+    both = both.resize((SIZE * 4 // 3, SIZE * 2 // 3), Image.LANCZOS)
+    both.quantize(96, dither=Image.Dither.NONE).save(args.out, optimize=True)
 
 
 if __name__ == '__main__':
