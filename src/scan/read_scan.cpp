@@ -10,6 +10,7 @@
 #include "../error.h"
 #include "../files.h"
 #include "../parallel.h"
+#include "assemble_cloud.h"
 #include "camera_frame.h"
 #include "pcd.h"
 #include "ply.h"

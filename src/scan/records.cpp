@@ -125,7 +125,7 @@ RowSource make_source(const std::string& name, const RecordLayout& layout, Bytes
   }
   const bool swap = layout.big_endian != (std::endian::native == std::endian::big);
   source.load = [layout, bytes, swap, normals = source.normals, colors = source.colors](
-                    std::size_t i, Rows& rows) -> const Rows& {
+                    std::size_t i, Rows& rows) -> RowsView {
     const Part part = part_of(i, layout.count, kPartRows);
     const std::size_t count = part.end - part.begin;
     rows.points.resize(count);
@@ -133,7 +133,7 @@ RowSource make_source(const std::string& name, const RecordLayout& layout, Bytes
     rows.colors.resize(colors ? count : 0);
     const auto first_byte = bytes(part);
     for (const Field& field : layout.fields) decode(field, first_byte(field), count, swap, rows);
-    return rows;
+    return {rows.points, rows.normals, rows.colors};
   };
   return source;
 }

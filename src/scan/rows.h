@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,13 @@ struct Rows {
   void resize(std::size_t rows);
 };
 
+// Rows to look at: those of a scan, or some of them.
+struct RowsView {
+  std::span<const Vec3> points;
+  std::span<const Vec3f> normals;
+  std::span<const Color> colors;
+};
+
 // The rows of a scan file in parts that can be had in any order, more than once, from several
 // threads.
 struct RowSource {
@@ -58,8 +66,8 @@ struct RowSource {
   std::vector<std::size_t>
       first;  // position of each part's first row; one more entry: the number of rows
   bool normals = false, colors = false;
-  // Returns the part's rows, either `scratch` filled with them or what it holds already.
-  std::function<const Rows&(std::size_t part, Rows& scratch)> load;
+  // Returns the part's rows: in `scratch`, or where it holds them already.
+  std::function<RowsView(std::size_t part, Rows& scratch)> load;
   // Where all coordinates are floats already: puts the part's points where they belong, without
   // attributes.
   std::function<void(std::size_t part, Vec3f* to)> load_floats;
@@ -69,12 +77,6 @@ struct RowSource {
   std::size_t parts() const { return first.size() - 1; }
   std::size_t rows() const { return first.back(); }
 };
-
-// Makes one cloud of one or more files: leaves out rows that are not finite, and where coordinates
-// are so large that float would lose them, moves the origin into the middle of the scan
-// (component-wise median, in steps of 512 m). Throws bad_input where no row is finite. The origin
-// does not depend on the order of the rows. Attributes that not all sources have are left out.
-PointCloud assemble_cloud(const std::vector<RowSource>& sources);
 
 // A source of rows that are in memory.
 RowSource rows_in_memory(const std::string& name, Rows rows);

@@ -274,7 +274,13 @@ Rows read_text_rows(LineReader& lines, const TextLayout& layout) {
       ++count;
     if (count == 0) break;
     parallel_for(count, [&](std::size_t i) { BlockParser(layout, blocks[i]).parse(); });
-    if (rows.size() == 0) rows.near_points.reserve(expected_rows(lines, blocks[0], count));
+    if (rows.size() == 0) {
+      const std::size_t expected = expected_rows(lines, blocks[0], count);
+      if (blocks[0].rows.points.empty())
+        rows.near_points.reserve(expected);
+      else
+        rows.points.reserve(expected);
+    }
     for (std::size_t i = 0; i < count && rows.size() < layout.rows; ++i) {
       const Block& block = blocks[i];
       const bool enough =

@@ -5,7 +5,8 @@
 #include "world/validate.h"
 #include "world/world_json.h"
 
-// Any text is read or refused; what is read is written and read the same; what is valid is triangulated.
+// Any text is read or refused; what is read is written and read the same; what is valid is
+// triangulated.
 void fuzz(const std::string& bytes) {
   const scanworld::World world = scanworld::parse_world(bytes);
   const std::string text = scanworld::world_text(world);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz.h"
+#include "scan/assemble_cloud.h"
 #include "scan/xyz.h"
 
 void fuzz(const std::string& bytes) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scan/rows.h"
+#include "scan/assemble_cloud.h"
 
 #include "support/support.h"
 
