@@ -1,22 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <sstream>
 
 #include "cli.h"
 #include "error.h"
 #include "exporters/export.h"
 #include "files.h"
 #include "parallel.h"
+#include "report_json.h"
 #include "scan/read_scan.h"
 #include "scan/write_scan.h"
 #include "settings.h"
-#include "version.h"
 #include "world/validate.h"
 #include "world/world_json.h"
 
@@ -43,12 +41,6 @@ struct Request {
   bool labels = false, json = false, show_options = false;
   Console console;
 };
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -95,47 +87,6 @@ void add_provenance(World& world, const Request& request, const PointCloud& clou
   world.provenance.options["seed"] = static_cast<std::int64_t>(request.seed);
 }
 
-Json report_json(const Request& request, const PointCloud& cloud, const ReconstructResult& result,
-                 const Report& report) {
-  Json stages = Json::array();
-  double cpu = 0;
-  for (const StageReport& s : report.stages) {
-    stages.push_back({{"name", s.name},
-                      {"seconds", s.seconds},
-                      {"cpu_seconds", s.cpu_seconds},
-                      {"in", s.in},
-                      {"out", s.out},
-                      {"what", s.what}});
-    cpu += s.cpu_seconds;
-  }
-  const auto out_of = [&](std::string_view stage) {
-    const auto found = std::find_if(report.stages.begin(), report.stages.end(),
-                                    [&](const StageReport& s) { return s.name == stage; });
-    return found == report.stages.end() ? std::size_t{0} : found->out;
-  };
-  Json scans = Json::array();
-  for (const auto& scan : request.scans) scans.push_back(scan.string());
-  return {{"schema", {{"name", "scanworld-report"}, {"version", 1}}},
-          {"program", std::string("scanworld ") + version()},
-          {"scans", scans},
-          {"method", request.method},
-          {"preset", request.preset},
-          {"points", {{"input", cloud.input_size()}, {"not_finite", cloud.skipped.size()}}},
-          {"scale", report.scale},
-          {"noise", report.noise},
-          {"filtering",
-           {{"points_before", cloud.points.size()}, {"points_after", out_of("Filtering")}}},
-          {"clusters",
-           {{"placed", out_of("Placing small clusters")}, {"walls", out_of("Spreading clusters")}}},
-          {"triangles", out_of("Triangulation")},
-          {"surfaces", kind_counts(result.world)},
-          {"stages", stages},
-          {"cpu_seconds", cpu},
-          {"peak_memory_mb", peak_memory_mb()},
-          {"warnings", report.warnings},
-          {"world_hash", world_hash(result.world)}};
-}
-
 void write_json(const std::filesystem::path& path, const Json& json) {
   OutputFile file(path);
   file.write(json.dump(2) + "\n");
@@ -163,6 +114,30 @@ void write_files(const std::filesystem::path& folder, const Request& request,
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 
+Json whole_report(const Request& request, const ReconstructResult& result, const PointCloud& cloud,
+                  double seconds) {
+  Json report = report_json(result, cloud);
+  report["scans"] = Json::array();
+  for (const auto& scan : request.scans) report["scans"].push_back(scan.string());
+  report["method"] = request.method;
+  report["preset"] = request.preset;
+  report["complete_seconds"] = seconds;
+  return report;
+}
+
+// Says what was done: warnings and stages on stderr, the result on stdout.
+void tell(const Request& request, const ReconstructResult& result, const Json& report) {
+  request.console.finish_progress();
+  for (const std::string& warning : result.report.warnings) request.console.warn(warning);
+  for (const StageReport& s : result.report.stages)
+    request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name,
+                                     1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
+  if (request.json)
+    print_json(report);
+  else
+    fmt::print("{}\n", summary(request, result.world, report));
+}
+
 void run(Request request) {
   if (request.show_options) return fmt::print("{}", options_table());
   if (request.scans.empty() || request.out.empty())
@@ -178,48 +153,34 @@ void run(Request request) {
   const Progress progress = request.console.make_progress();
 
   Report reading;
-  StageLog log(reading, progress, 20);
-  PointCloud cloud = log.run(
-      "Reading", "files -> points", request.scans.size(), [&] { return read_scan(request.scans); },
-      [](const PointCloud& c) { return c.points.size(); });
+  PointCloud cloud =
+      StageLog(reading, progress, 1).run("Reading", "files -> points", request.scans, [&] {
+        return read_scan(request.scans);
+      });
   if (!poses.empty()) use_poses(cloud, poses);
   if (request.preset.empty()) {
     request.preset = preset_for(cloud);
     options = resolve_options(request);
   }
-  for (const std::string& warning : warnings_about(cloud))
-    request.console.warn(warning), reading.warnings.push_back(warning);
 
   ReconstructResult result = reconstruct(cloud, options, progress);
+  std::vector<StageReport>& stages = result.report.stages;
+  stages.insert(stages.begin(), reading.stages[0]);
+  result.report.warnings = warnings_about(cloud);
   add_provenance(result.world, request, cloud);
   if (const auto reasons = validate(result.world); !reasons.empty())
     throw Error(Cause::check_failed,
                 fmt::format("the world is not valid: {}", fmt::join(reasons, "; ")));
 
-  log.run(
-      "Writing", "surfaces -> files", result.world.surfaces.size(),
-      [&] {
+  StageLog(result.report, progress, stages.size() + 1)
+      .run("Writing", "surfaces -> files", result.world.surfaces, [&] {
         write_files(folder.path(), request, formats, cloud, result);
         return formats.size() + 1 + request.labels;
-      },
-      [](std::size_t files) { return files; });
-  Report report = result.report;
-  report.stages.insert(report.stages.begin(), reading.stages[0]);
-  report.stages.push_back(reading.stages[1]);
-  report.warnings.insert(report.warnings.begin(), reading.warnings.begin(), reading.warnings.end());
-  Json json = report_json(request, cloud, result, report);
-  json["complete_seconds"] = seconds_since(start);
-  write_json(folder.path() / "report.json", json);
+      });
+  const Json report = whole_report(request, result, cloud, seconds_since(start));
+  write_json(folder.path() / "report.json", report);
   folder.commit();
-
-  request.console.finish_progress();
-  for (const StageReport& s : report.stages)
-    request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name,
-                                     1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
-  if (request.json)
-    print_json(json);
-  else
-    fmt::print("{}\n", summary(request, result.world, json));
+  tell(request, result, report);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "error.h"
 #include "thesis/labels.h"
@@ -13,6 +12,7 @@
 #include "thesis/walls.h"
 #include "version.h"
 #include "world/assemble.h"
+#include "world/find_frame.h"
 
 namespace scanworld {
 
@@ -32,29 +32,6 @@ void drop_degenerate(std::vector<FoundSurface>& surfaces, std::vector<std::int32
     if (label >= 0) label = new_id[static_cast<std::size_t>(label)];
 }
 
-// A camera is pitched as it likes, so the largest surface that faces roughly against its y axis
-// tells what is level.
-Frame frame_of_scan(const PointCloud& cloud, const std::vector<FoundSurface>& surfaces) {
-  constexpr double kMaxPitch = 0.87;  // [rad] 50 degrees
-  Frame frame{.origin = cloud.origin};
-  frame.assumed.push_back("coordinates are metres: the scan does not say otherwise");
-  if (!cloud.camera_frame) {
-    frame.assumed.push_back("up is +z: the scan does not say otherwise");
-    return frame;
-  }
-  frame.up = -Vec3::UnitY();
-  std::size_t most = 0;
-  for (const FoundSurface& s : surfaces)
-    if (-s.plane.normal.y() > std::cos(kMaxPitch) && s.support.points > most)
-      most = s.support.points, frame.up = s.plane.normal;
-  frame.assumed.push_back(
-      most > 0 ? "up is the normal of the largest surface that faces against the camera's y axis: "
-                 "the scan is "
-                 "one image of a camera, in whose frame y points down"
-               : "up is -y: the scan is one image of a camera, in whose frame y points down");
-  return frame;
-}
-
 double median_rms(const std::vector<FoundSurface>& surfaces) {
   std::vector<double> rms;
   for (const FoundSurface& s : surfaces) rms.push_back(s.support.rms);
@@ -63,57 +40,38 @@ double median_rms(const std::vector<FoundSurface>& surfaces) {
   return *middle;
 }
 
-// The stages of the thesis, by the names in its Table 4.
+// The stages of the thesis, by the names in its Table 4, and what comes after them.
 std::vector<FoundSurface> find_surfaces(const PointCloud& cloud,
                                         const thesis::ThesisOptions& options,
                                         const Progress& progress, ReconstructResult& result) {
   using namespace thesis;
-  StageLog stages(result.report, progress, 10);
-  const FilteredPoints filtered = stages.run(
-      "Filtering", "points -> medians", cloud.points.size(),
-      [&] { return filter_points(cloud, options.filter); },
-      [](const auto& f) { return f.points.size(); });
+  StageLog log(result.report, progress, 11);
+  const FilteredPoints filtered = log.run("Filtering", "points -> medians", cloud,
+                                          [&] { return filter_points(cloud, options.filter); });
   const double delta = result.report.scale = filtered.delta;
-  const KdTree tree = stages.run(
-      "Building the tree", "medians -> nodes", filtered.points.size(),
-      [&] { return KdTree(filtered.points); }, [](const auto& t) { return t.points().size(); });
-  std::vector<Cluster> clusters =
-      stages.run("Placing small clusters", "medians -> clusters", filtered.points.size(),
-                 [&] { return place_clusters(tree, delta, options.placing); });
-  clusters = stages.run("Spreading clusters", "clusters -> walls", clusters.size(), [&] {
-    return spread_clusters(tree, delta, std::move(clusters), options.spreading);
+  const KdTree tree = log.run("Building the tree", "medians -> nodes", filtered,
+                              [&] { return KdTree(filtered.points); });
+  const std::vector<Cluster> placed =
+      log.run("Placing small clusters", "medians -> clusters", tree,
+              [&] { return place_clusters(tree, delta, options.placing); });
+  const std::vector<Cluster> walls =
+      log.run("Spreading clusters", "clusters -> walls", placed,
+              [&] { return spread_clusters(tree, delta, placed, options.spreading); });
+  const auto fitted = log.run("Fitting to planes", "walls -> medians", walls,
+                              [&] { return fit_to_planes(filtered.points, walls); });
+  std::vector<Polygon> polygons = log.run("Finding polygons border", "medians -> vertices", fitted,
+                                          [&] { return find_borders(fitted, walls); });
+  polygons = log.run("Polygons vertices fitting", "vertices -> vertices", polygons,
+                     [&] { return snap_vertices(polygons, walls, tree, delta, options.snapping); });
+  polygons = log.run("Vertices reduction", "vertices -> vertices", polygons,
+                     [&] { return reduce_vertices(polygons, delta, options.reduction); });
+  log.run("Triangulation", "vertices -> triangles", polygons,
+          [&] { return triangulate(polygons, walls); });
+  result.labels = log.run("Labelling points", "points -> points", cloud, [&] {
+    return label_points(cloud, filtered, walls, tree, options.spreading.min_distance * delta);
   });
-  const auto on_planes = stages.run("Fitting to planes", "walls -> walls", clusters.size(),
-                                    [&] { return fit_to_planes(filtered.points, clusters); });
-  const auto count_vertices = [](const std::vector<Polygon>& polygons) {
-    std::size_t count = 0;
-    for (const Polygon& p : polygons) count += p.size();
-    return count;
-  };
-  std::vector<Polygon> polygons = stages.run(
-      "Finding polygons border", "walls -> vertices", clusters.size(),
-      [&] { return find_borders(on_planes, clusters); }, count_vertices);
-  polygons = stages.run(
-      "Polygons vertices fitting", "vertices -> vertices", count_vertices(polygons),
-      [&] { return snap_vertices(polygons, clusters, tree, delta, options.snapping); },
-      count_vertices);
-  polygons = stages.run(
-      "Vertices reduction", "vertices -> vertices", count_vertices(polygons),
-      [&] { return reduce_vertices(std::move(polygons), delta, options.reduction); },
-      count_vertices);
-  stages.run(
-      "Triangulation", "vertices -> triangles", count_vertices(polygons),
-      [&] {
-        std::size_t triangles = 0;
-        for (std::size_t i = 0; i < polygons.size(); ++i)
-          triangles += triangulate_convex(polygons[i], clusters[i].fit.plane.normal).size();
-        return triangles;
-      },
-      [](std::size_t triangles) { return triangles; });
-  return stages.run("Describing walls", "walls -> surfaces", clusters.size(), [&] {
-    const double max_distance = options.spreading.min_distance * delta;
-    result.labels = label_points(cloud, filtered, clusters, tree, max_distance);
-    return describe_walls(cloud, result.labels, filtered.points, delta, clusters, polygons);
+  return log.run("Describing walls", "walls -> surfaces", walls, [&] {
+    return describe_walls(cloud, result.labels, filtered.points, delta, walls, polygons);
   });
 }
 
@@ -130,7 +88,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
         fmt::format("no plane found in {} points (they were looked at in cubes of {:.3g} m)",
                     cloud.points.size(), result.report.scale));
   result.report.noise = median_rms(surfaces);
-  result.world = assemble_world(surfaces, frame_of_scan(cloud, surfaces));
+  result.world = assemble_world(surfaces, find_frame(cloud, surfaces));
 
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))

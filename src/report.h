@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "progress.h"
+#include "types.h"
 
 namespace scanworld {
 
@@ -30,8 +31,26 @@ struct Report {
   std::vector<std::string> warnings;
 };
 
-// Process CPU time of all threads [s].
+// CPU time of all threads of this process so far [s].
 double cpu_seconds();
+
+// The most memory that this process has held [MB].
+double peak_memory_mb();
+
+// How many things a value holds, as a report counts them. Other types bring a function of this name
+// in their own namespace.
+inline std::size_t count_of(std::size_t count) { return count; }
+inline std::size_t count_of(const PointCloud& cloud) { return cloud.points.size(); }
+template <typename T>
+std::size_t count_of(const std::vector<T>& items) {
+  return items.size();
+}
+template <typename T>
+std::size_t count_of(const std::vector<std::vector<T>>& lists) {
+  std::size_t count = 0;
+  for (const auto& list : lists) count += list.size();
+  return count;
+}
 
 // Runs stages one after the other, telling a progress function, and notes time and counts of each.
 class StageLog {
@@ -39,23 +58,19 @@ class StageLog {
   StageLog(Report& report, const Progress& progress, std::size_t stages)
       : report_(report), progress_(progress), stages_(stages) {}
 
-  // Runs `body` and returns what it returns; `count` says how much that is.
-  template <typename Body, typename Count>
-  auto run(std::string_view name, std::string_view what, std::size_t in, Body body, Count count) {
+  // Runs `body` on what `in` counts and returns what it returns. `what` says what is counted.
+  template <typename In, typename Body>
+  auto run(std::string_view name, std::string_view what, const In& in, Body body) {
     if (progress_)
       progress_(name, static_cast<double>(report_.stages.size()) / static_cast<double>(stages_));
+    const std::size_t count_in = count_of(in);
     const auto start = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds();
     auto result = body();
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report_.stages.push_back(
-        {std::string(name), seconds, cpu_seconds() - cpu, in, count(result), std::string(what)});
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    report_.stages.push_back({std::string(name), wall.count(), cpu_seconds() - cpu, count_in,
+                              count_of(result), std::string(what)});
     return result;
-  }
-  template <typename Body>
-  auto run(std::string_view name, std::string_view what, std::size_t in, Body body) {
-    return run(name, what, in, body, [](const auto& result) { return result.size(); });
   }
 
  private:

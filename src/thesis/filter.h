@@ -25,6 +25,8 @@ struct FilteredPoints {
   std::vector<int> from_input;  // for each point of the cloud: the point that stands for it, or -1
 };
 
+inline std::size_t count_of(const FilteredPoints& filtered) { return filtered.points.size(); }
+
 // Divides space into cubes; those with more than `min_points` points are replaced by the
 // component-wise median of their points, the others are dropped. Based on: V. Petrik, Spatial
 // Models in Mobile Robotics, 2012, Algorithm 4. Different from it: the cubes are half-open, so that

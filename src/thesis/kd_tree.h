@@ -58,4 +58,6 @@ class KdTree {
   std::vector<int> nodes_;  // indices of points
 };
 
+inline std::size_t count_of(const KdTree& tree) { return tree.points().size(); }
+
 }  // namespace scanworld::thesis

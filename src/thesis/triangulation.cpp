@@ -53,4 +53,12 @@ std::vector<std::array<int, 3>> triangulate_convex(const std::vector<Vec3>& vert
   return triangles;
 }
 
+std::vector<std::vector<std::array<int, 3>>> triangulate(const std::vector<Polygon>& polygons,
+                                                         const std::vector<Cluster>& clusters) {
+  std::vector<std::vector<std::array<int, 3>>> triangles;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    triangles.push_back(triangulate_convex(polygons[i], clusters[i].fit.plane.normal));
+  return triangles;
+}
+
 }  // namespace scanworld::thesis

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "../types.h"
+#include "polygons.h"
 
 namespace scanworld::thesis {
 
@@ -15,5 +15,9 @@ namespace scanworld::thesis {
 // pass (vertices on one circle or one line), the one whose circle reaches in least is cut off.
 std::vector<std::array<int, 3>> triangulate_convex(const std::vector<Vec3>& vertices,
                                                    const Vec3& normal);
+
+// The same for the polygon of each cluster.
+std::vector<std::vector<std::array<int, 3>>> triangulate(const std::vector<Polygon>& polygons,
+                                                         const std::vector<Cluster>& clusters);
 
 }  // namespace scanworld::thesis

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What fuzz targets share. Each target is one file with a function `fuzz` that must return, or throw Error, for any
-// bytes. With clang and the preset `fuzz` it is driven by libFuzzer; else it replays the files that it is given.
+// What fuzz targets share. Each target is one file with a function `fuzz` that must return, or
+// throw Error, for any bytes. With clang and the preset `fuzz` it is driven by libFuzzer; else it
+// replays the files that it is given.
 #pragma once
 
 #include <sys/mman.h>

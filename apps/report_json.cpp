@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report_json.h"
+
+#include <algorithm>
+
+#include "cli.h"
+#include "version.h"
+#include "world/world_json.h"
+
+namespace scanworld::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t out_of(const Report& report, std::string_view stage) {
+  const auto found = std::find_if(report.stages.begin(), report.stages.end(),
+                                  [&](const StageReport& s) { return s.name == stage; });
+  return found == report.stages.end() ? 0 : found->out;
+}
+
+Json json_of(const StageReport& s) {
+  return {{"name", s.name}, {"seconds", s.seconds}, {"cpu_seconds", s.cpu_seconds},
+          {"in", s.in},     {"out", s.out},         {"what", s.what}};
+}
+
+}  // namespace
+
+Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
+  const Report& report = result.report;
+  Json stages = Json::array();
+  double cpu = 0;
+  for (const StageReport& s : report.stages) {
+    stages.push_back(json_of(s));
+    cpu += s.cpu_seconds;
+  }
+  return {{"schema", {{"name", "scanworld-report"}, {"version", 1}}},
+          {"program", std::string("scanworld ") + version()},
+          {"points", {{"input", cloud.input_size()}, {"not_finite", cloud.skipped.size()}}},
+          {"scale", report.scale},
+          {"noise", report.noise},
+          {"filtering",
+           {{"points_before", cloud.points.size()}, {"points_after", out_of(report, "Filtering")}}},
+          {"clusters",
+           {{"placed", out_of(report, "Placing small clusters")},
+            {"walls", out_of(report, "Spreading clusters")}}},
+          {"triangles", out_of(report, "Triangulation")},
+          {"surfaces", kind_counts(result.world)},
+          {"stages", stages},
+          {"cpu_seconds", cpu},
+          {"peak_memory_mb", peak_memory_mb()},
+          {"warnings", report.warnings},
+          {"world_hash", world_hash(result.world)}};
+}
+
+}  // namespace scanworld::cli
