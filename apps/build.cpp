@@ -34,7 +34,7 @@ writes office/world.json, report.json, world.obj, world.stl and world.glb.
 struct Request {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
-  std::string method = "thesis", preset;  // an empty preset: the one that suits the scan
+  std::string method = "rival", preset;  // an empty preset: the one that suits the scan
   std::vector<std::string> assignments, exports = {"obj", "stl", "glb"};
   int threads = 0;
   std::uint64_t seed = 1;
@@ -47,7 +47,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 ReconstructOptions resolve_options(const Request& request) {
-  ReconstructOptions options;
+  ReconstructOptions options{.method = method_named(request.method)};
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
@@ -166,7 +166,8 @@ void run(Request request) {
   ReconstructResult result = reconstruct(cloud, options, progress);
   std::vector<StageReport>& stages = result.report.stages;
   stages.insert(stages.begin(), reading.stages[0]);
-  result.report.warnings = warnings_about(cloud);
+  const std::vector<std::string> warnings = warnings_about(cloud);
+  result.report.warnings.insert(result.report.warnings.begin(), warnings.begin(), warnings.end());
   add_provenance(result.world, request, cloud);
   if (const auto reasons = validate(result.world); !reasons.empty())
     throw Error(Cause::check_failed,
@@ -193,8 +194,9 @@ void add_build(CLI::App& app) {
       ->type_name("SCAN");
   verb->add_option("-o,--out", request->out, "Folder to write; appears whole or not at all")
       ->type_name("DIR");
-  verb->add_option("--method", request->method, "thesis: the method of 2012")
-      ->check(CLI::IsMember({"thesis"}))
+  verb->add_option("--method", request->method,
+                   "rival: clusters compete for voxels; thesis: the method of 2012")
+      ->check(CLI::IsMember({"rival", "thesis"}))
       ->capture_default_str();
   verb->add_option("--preset", request->preset, "Options for a kind of scan")
       ->check(CLI::IsMember(preset_names()))
@@ -219,7 +221,7 @@ void add_build(CLI::App& app) {
       ->allow_extra_args(false)
       ->capture_default_str();
   verb->add_option("--seed", request->seed,
-                   "For methods that draw random numbers (the thesis' draws none)")
+                   "For methods that draw random numbers (none does so far)")
       ->capture_default_str();
   verb->add_flag("--json", request->json, "Print the report to stdout");
   request->console.add_to(*verb);

@@ -25,6 +25,20 @@ Json json_of(const StageReport& s) {
           {"in", s.in},     {"out", s.out},         {"what", s.what}};
 }
 
+Json planes_json(const ReconstructResult& result) {
+  Json planes = Json::array();
+  for (std::size_t i = 0; i < result.world.surfaces.size(); ++i) {
+    const Surface& s = result.world.surfaces[i];
+    Json plane = {{"id", s.id},
+                  {"points", s.support.points},
+                  {"rms", s.support.rms},
+                  {"coverage", s.support.coverage}};
+    if (!result.report.plane_noise.empty()) plane["noise"] = result.report.plane_noise[i];
+    planes.push_back(std::move(plane));
+  }
+  return planes;
+}
+
 }  // namespace
 
 Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
@@ -39,12 +53,9 @@ Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
           {"program", std::string("scanworld ") + version()},
           {"points", {{"input", cloud.input_size()}, {"not_finite", cloud.skipped.size()}}},
           {"scale", report.scale},
+          {"spacing", report.spacing},
           {"noise", report.noise},
-          {"filtering",
-           {{"points_before", cloud.points.size()}, {"points_after", out_of(report, "Filtering")}}},
-          {"clusters",
-           {{"placed", out_of(report, "Placing small clusters")},
-            {"walls", out_of(report, "Spreading clusters")}}},
+          {"planes", planes_json(result)},
           {"triangles", out_of(report, "Triangulation")},
           {"surfaces", kind_counts(result.world)},
           {"stages", stages},

@@ -9,16 +9,18 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "rival/rival.h"
 #include "thesis/thesis.h"
 #include "world/world.h"
 
 namespace scanworld {
 
-enum class Method { thesis };
+enum class Method { rival, thesis };
 
 struct ReconstructOptions {
-  Method method = Method::thesis;
-  thesis::ThesisOptions thesis;
+  Method method = Method::rival;
+  rival::RivalOptions rival;
+  thesis::ThesisOptions thesis;  // for its method, and for the polygons of both
 };
 
 struct ReconstructResult {
@@ -31,6 +33,10 @@ struct ReconstructResult {
 // threads and the order of the points. Throws nothing_found where the scan holds no plane.
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                               const Progress& progress = {});
+
+// The method of this name; throws usage where there is none.
+Method method_named(const std::string& name);
+const char* name_of(Method method);
 
 // All options by name, for a command line, a file or a report.
 OptionList list_options(ReconstructOptions& options);

@@ -47,14 +47,17 @@ TEST_CASE("build writes its folder with world, report and exports") {
   CHECK(entries(folder.path()) == 2);
 
   const Json report = Json::parse(read_file(folder / "world" / "report.json"));
-  CHECK(report["filtering"]["points_before"] == read_scan({folder / "room.ply"}).points.size());
-  CHECK(report["filtering"]["points_after"].get<int>() > 1000);
-  CHECK(report["clusters"]["placed"].get<int>() >= 6);
-  CHECK(report["clusters"]["walls"] == 6);
+  CHECK(report["method"] == "rival");
+  REQUIRE(report["planes"].size() == 6);
+  for (const Json& plane : report["planes"]) {
+    CHECK(plane["points"].get<int>() > 1000);
+    CHECK(plane["rms"].get<double>() <= plane["noise"].get<double>());
+  }
+  for (const char* length : {"scale", "noise", "spacing"}) CHECK(report[length].get<double>() > 0);
   CHECK(report["triangles"] == 12);
   CHECK(report["peak_memory_mb"].get<double>() > 1);
   CHECK(report["world_hash"] == world_hash(read_world(folder / "world")));
-  CHECK(report["stages"].size() == 13);
+  CHECK(report["stages"].size() == 19);
   CHECK(report["complete_seconds"].get<double>() > 0);
 }
 
@@ -103,8 +106,8 @@ TEST_CASE("--json prints the report, --progress json and -v tell of the stages o
   CHECK(Json::parse(quiet.out) == Json::parse(read_file(folder / "w" / "report.json")));
   CHECK(quiet.err.empty());
   const Outcome loud = run({"build", scan, "-o", folder / "w", "-v", "--progress", "json"});
-  CHECK(contains(loud.err, "{\"stage\":\"Spreading clusters\""));
-  CHECK(contains(loud.err, "Filtering"));
+  CHECK(contains(loud.err, "{\"stage\":\"Rivalry\""));
+  CHECK(contains(loud.err, "Sorting into voxels"));
   CHECK(
       contains(run({"build", scan, "-o", folder / "w", "--progress", "bar"}).err, "Triangulation"));
 }

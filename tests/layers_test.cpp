@@ -31,11 +31,12 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"ground", {}},
     {"scan", {"ground"}},
     {"thesis", {"ground"}},
+    {"rival", {"ground"}},
     {"world", {"ground"}},
-    {"reconstruct", {"ground", "scan", "thesis", "world"}},
+    {"reconstruct", {"ground", "scan", "thesis", "rival", "world"}},
     {"exporters", {"ground", "world"}},
-    {"apps", {"ground", "scan", "thesis", "world", "reconstruct", "exporters"}},
-    {"bench", {"ground", "scan", "thesis", "world", "reconstruct", "exporters"}},
+    {"apps", {"ground", "scan", "thesis", "rival", "world", "reconstruct", "exporters"}},
+    {"bench", {"ground", "scan", "thesis", "rival", "world", "reconstruct", "exporters"}},
 };
 
 // The start of a library's header names, and the one file that may include them.

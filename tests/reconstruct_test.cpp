@@ -83,17 +83,24 @@ TEST_CASE("scans that hold no plane are told as such, in no time") {
   nothing(cloud_of(line));
 }
 
-TEST_CASE("labels name surfaces that exist, and the report tells all stages of the thesis") {
+TEST_CASE("labels name surfaces that exist, for both methods") {
   const PointCloud cloud = scan_of("room", 60000);
-  const ReconstructResult result = reconstruct(cloud);
-  REQUIRE(result.labels.size() == cloud.points.size());
-  std::vector<std::size_t> counts(result.world.surfaces.size());
-  for (std::int32_t label : result.labels) {
-    REQUIRE(label < static_cast<std::int32_t>(counts.size()));
-    if (label >= 0) ++counts[static_cast<std::size_t>(label)];
+  for (Method method : {Method::rival, Method::thesis}) {
+    const ReconstructResult result = reconstruct(cloud, {.method = method});
+    REQUIRE(result.labels.size() == cloud.points.size());
+    std::vector<std::size_t> counts(result.world.surfaces.size());
+    for (std::int32_t label : result.labels) {
+      REQUIRE(label < static_cast<std::int32_t>(counts.size()));
+      if (label >= 0) ++counts[static_cast<std::size_t>(label)];
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      CHECK(counts[i] == result.world.surfaces[i].support.points);
   }
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    CHECK(counts[i] == result.world.surfaces[i].support.points);
+}
+
+TEST_CASE("the report tells all stages of the thesis") {
+  const ReconstructResult result =
+      reconstruct(room_points({5, 4, 2.7}, 0.05, 0.005), {.method = Method::thesis});
   for (const char* name : {"Filtering", "Placing small clusters", "Spreading clusters",
                            "Fitting to planes", "Finding polygons border",
                            "Polygons vertices fitting", "Vertices reduction", "Triangulation"})
@@ -110,8 +117,7 @@ TEST_CASE("progress rises from stage to stage, and throwing from it stops the wo
   CHECK(fractions.back() < 1);
   CHECK_THROWS_AS(reconstruct(cloud, {},
                               [](std::string_view stage, double) {
-                                if (stage == "Spreading clusters")
-                                  throw std::runtime_error("enough");
+                                if (stage == "Rivalry") throw std::runtime_error("enough");
                               }),
                   std::runtime_error);
 }

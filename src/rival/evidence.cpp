@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evidence.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "../parallel.h"
+
+namespace scanworld::rival {
+
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+// How much of the points' variance off the plane a quadratic surface explains.
+struct Bend {
+  double share = 0, rms = 0;
+};
+
+Bend measure_bend(const Grid& grid, const std::vector<std::uint32_t>& sites, const MomentFit& f) {
+  const PlaneFrame frame = frame_of(f.plane, f.centroid);
+  const double unit = std::sqrt(f.variance[2]) + 1e-9;
+  Mat6 a = Mat6::Zero();
+  Vec6 b = Vec6::Zero();
+  double total = 0, n = 0;
+  for (std::uint32_t i : sites) {
+    const Site& s = grid.sites[i];
+    const Vec2 q = frame.to_plane(s.position()) / unit;
+    const double h = f.plane.signed_distance(s.position()), w = s.points;
+    Vec6 row;
+    row << 1, q.x(), q.y(), q.x() * q.x(), q.x() * q.y(), q.y() * q.y();
+    a += w * row * row.transpose();
+    b += w * h * row;
+    total += w * (h * h + std::max(0.0, s.variance(f.plane.normal)));
+    n += w;
+  }
+  // Against the plane fitted the same way, so that only the bend counts.
+  const Vec6 quadric = a.ldlt().solve(b);
+  const Vec3 plane = a.topLeftCorner<3, 3>().ldlt().solve(b.head<3>());
+  const double explained = quadric.dot(b) - plane.dot(b.head<3>());
+  const double left = total - plane.dot(b.head<3>());
+  if (!(left > 0) || !(explained > 0)) return {};
+  return {explained / left - 3 / n, std::sqrt(explained / n)};
+}
+
+double area_of(const Cluster& cluster) {
+  return 12 * std::sqrt(cluster.fit.variance[1] * cluster.fit.variance[2]);
+}
+
+bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
+                  const EvidenceOptions& options) {
+  const double n = cluster.moments.n, area = area_of(cluster);
+  if (n < options.min_points) return true;
+  // Noise spreads a plane's points over more than one voxel.
+  const double seen = 0.6 * static_cast<double>(sites) * scale.voxel * scale.voxel;
+  const double noise = scale.noise_at(cluster.fit.centroid);
+  if (seen < options.min_area || area < std::pow(options.area_noise * noise, 2)) return true;
+  return n < options.sparse_points &&
+         n * scale.spacing * scale.spacing < options.min_density * area;
+}
+
+bool is_bent(const Grid& grid, const std::vector<std::uint32_t>& sites, const Cluster& cluster,
+             const Scale& scale, const EvidenceOptions& options) {
+  if (area_of(cluster) > options.small_area) return false;
+  const Vec3& v = cluster.fit.variance;
+  const bool is_long = v[2] > options.long_aspect * options.long_aspect * v[1];
+  const double share = is_long ? options.long_bend_share : options.bend_share;
+  const Bend bend = measure_bend(grid, sites, cluster.fit);
+  return bend.share > share + options.bend_chance / cluster.moments.n &&
+         bend.rms > options.bend_height * scale.noise_at(cluster.fit.centroid);
+}
+
+// For each cluster, how many of its points larger ones that are next to them explain as well.
+std::vector<double> count_explained(const Grid& grid, const Neighbors& neighbors,
+                                    const Scale& scale, const Clustering& c,
+                                    const EvidenceOptions& options) {
+  const double max_square = options.explained_distance * options.explained_distance;
+  std::vector<double> explained(c.clusters.size());
+  const auto points = [&](std::int32_t l) {
+    return c.clusters[static_cast<std::size_t>(l)].moments.n;
+  };
+  for (std::size_t i = 0; i < c.label.size(); ++i) {
+    const std::int32_t own = c.label[i];
+    if (own == kNone || !c.may_border(i)) continue;
+    const Site& s = grid.sites[i];
+    for (std::uint32_t j : neighbors.of(i)) {
+      const std::int32_t l = c.label[j];
+      if (l == kNone || l == own || points(l) <= points(own)) continue;
+      const Plane& plane = c.plane(l);
+      if (std::pow(plane.signed_distance(s.position()), 2) + s.variance(plane.normal) >
+          max_square * scale.variance_at(s.position()))
+        continue;
+      explained[static_cast<std::size_t>(own)] += s.points;
+      break;
+    }
+  }
+  return explained;
+}
+
+// For each cluster, how many points in no cluster are next to its own.
+std::vector<double> count_around(const Grid& grid, const Neighbors& neighbors,
+                                 const Clustering& c) {
+  std::vector<double> around(c.clusters.size());
+  std::vector<std::int32_t> seen;
+  for (std::size_t i = 0; i < c.label.size(); ++i) {
+    if (c.label[i] != kNone || !c.may_border(i)) continue;
+    seen.clear();
+    for (std::uint32_t j : neighbors.of(i)) {
+      const std::int32_t l = c.label[j];
+      if (l == kNone || std::find(seen.begin(), seen.end(), l) != seen.end()) continue;
+      seen.push_back(l);
+      around[static_cast<std::size_t>(l)] += grid.sites[i].points;
+    }
+  }
+  return around;
+}
+
+// Takes all sites from the clusters that are marked; tells whether any had some.
+bool drop_clusters(const std::vector<char>& marked, Clustering& c) {
+  bool any = false;
+  for (std::size_t i = 0; i < c.label.size(); ++i)
+    if (c.label[i] != kNone && marked[static_cast<std::size_t>(c.label[i])])
+      c.label[i] = kNone, c.awake[i] = 1, any = true;
+  return any;
+}
+
+}  // namespace
+
+Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                          Clustering c, const EvidenceOptions& options) {
+  std::vector<std::vector<std::uint32_t>> members(c.clusters.size());
+  for (std::size_t i = 0; i < c.label.size(); ++i)
+    if (c.label[i] != kNone)
+      members[static_cast<std::size_t>(c.label[i])].push_back(static_cast<std::uint32_t>(i));
+  std::vector<char> drop(c.clusters.size());
+  const std::vector<double> explained = count_explained(grid, neighbors, scale, c, options);
+  parallel_for(c.clusters.size(), [&](std::size_t k) {
+    const Cluster& cluster = c.clusters[k];
+    drop[k] = is_too_small(cluster, members[k].size(), scale, options) ||
+              explained[k] > options.explained_share * cluster.moments.n ||
+              is_bent(grid, members[k], cluster, scale, options);
+  });
+  drop_clusters(drop, c);
+  // What goes on past its border as something else than a plane is a piece of something round. When
+  // one piece is gone, those next to it show.
+  for (int round = 0; round < options.surrounded_rounds; ++round) {
+    const std::vector<double> around = count_around(grid, neighbors, c);
+    for (std::size_t k = 0; k < drop.size(); ++k)
+      drop[k] = area_of(c.clusters[k]) <= options.surrounded_area &&
+                around[k] > options.surrounded * c.clusters[k].moments.n;
+    if (!drop_clusters(drop, c)) break;
+  }
+  return c;
+}
+
+}  // namespace scanworld::rival

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../parallel.h"
+
+namespace scanworld::rival {
+
+namespace {
+
+constexpr std::size_t kPart = 1 << 12;
+
+// A cluster that the points of a site may belong to.
+struct Candidate {
+  std::int32_t label;
+  int votes;
+  double price = 0;  // for being among others, in squared noise
+};
+
+// The standard deviation of a cluster's points off its plane.
+double noise_of(const Cluster& cluster, const Scale& scale, const LabelOptions& options) {
+  return std::max(std::sqrt(cluster.fit.variance[0]), options.min_noise * scale.noise);
+}
+
+// The clusters of the sites around one, its own counting three times.
+void find_candidates(std::size_t i, const Neighbors& neighbors, const Clustering& c,
+                     double smoothness, std::vector<Candidate>& near) {
+  near.clear();
+  if (!c.may_border(i)) {
+    if (c.label[i] != kNone) near.push_back({c.label[i], 1});
+    return;
+  }
+  int total = 0;
+  for (std::uint32_t j : neighbors.of(i)) {
+    const int weight = i == j ? 3 : 1;
+    total += weight;
+    if (c.label[j] == kNone) continue;
+    const auto at = std::find_if(near.begin(), near.end(),
+                                 [&](const Candidate& k) { return k.label == c.label[j]; });
+    if (at != near.end())
+      at->votes += weight;
+    else
+      near.push_back({c.label[j], weight});
+  }
+  for (Candidate& k : near) k.price = smoothness * (total - k.votes) / total;
+}
+
+}  // namespace
+
+LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
+                            const Scale& scale, const Clustering& c, const LabelOptions& options) {
+  std::vector<double> own_square;  // [m2] how far off its cluster a point may be
+  for (const Cluster& cluster : c.clusters)
+    own_square.push_back(std::pow(options.max_own * noise_of(cluster, scale, options), 2));
+  const double max_square = options.max_distance * options.max_distance;
+
+  LabelledPoints result;
+  std::vector<std::int32_t>& labels = result.labels;
+  labels.assign(cloud.points.size(), kNone);
+  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  std::vector<std::vector<std::size_t>> counts(parts);
+  parallel_for(parts, [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+    counts[part].resize(c.clusters.size());
+    std::vector<Candidate> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_candidates(i, neighbors, c, options.smoothness, near);
+      if (near.empty()) continue;
+      const double variance = scale.variance_at(grid.sites[i].position());
+      for (std::uint32_t point : grid.points_of(i)) {
+        const Vec3 p = cloud.points[point].cast<double>();
+        double best = std::numeric_limits<double>::max();
+        std::int32_t label = kNone;
+        for (const Candidate& a : near) {
+          const double square = std::pow(c.plane(a.label).signed_distance(p), 2);
+          if (square >
+              std::min(max_square * variance, own_square[static_cast<std::size_t>(a.label)]))
+            continue;
+          if (square / variance + a.price < best)
+            best = square / variance + a.price, label = a.label;
+        }
+        if (label == kNone) continue;
+        labels[point] = label;
+        ++counts[part][static_cast<std::size_t>(label)];
+      }
+    }
+  });
+
+  result.plane_of.assign(c.clusters.size(), kNone);
+  for (std::size_t k = 0; k < c.clusters.size(); ++k) {
+    std::size_t points = 0;
+    for (const auto& count : counts) points += count.empty() ? 0 : count[k];
+    if (points < static_cast<std::size_t>(options.min_points)) continue;
+    result.plane_of[k] = static_cast<std::int32_t>(result.planes.size());
+    result.planes.push_back({c.clusters[k].fit, noise_of(c.clusters[k], scale, options)});
+  }
+  parallel_for(part_count(labels.size(), kPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, labels.size(), kPart);
+    for (std::size_t i = begin; i < end; ++i)
+      if (labels[i] != kNone) labels[i] = result.plane_of[static_cast<std::size_t>(labels[i])];
+  });
+  return result;
+}
+
+}  // namespace scanworld::rival

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rival.h"
+
+namespace scanworld::rival {
+
+Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                  std::vector<LocalPlane> local, Clustering c, const RivalOptions& options) {
+  c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+  c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
+  NeighborOptions wider = options.neighbors;
+  wider.max_reach = options.birth_reach;
+  std::vector<std::uint8_t> left(grid.sites.size());
+  for (int round = 0; round < options.birth_rounds; ++round) {
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] = c.label[i] == kNone;
+    const Neighbors around = find_neighbors(grid, wider, left);
+    local = fit_locally(grid, around, scale, options.local, std::move(local));
+    c = grow_clusters(grid, around, scale, local, std::move(c), options.growth);
+    c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+    c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
+  }
+  return c;
+}
+
+Clustering part(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                const std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options) {
+  c = split_clusters(grid, neighbors, std::move(c), options.split);
+  c = bridge_clusters(grid, scale, std::move(c), options.bridge);
+  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+}
+
+Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                   const std::vector<LocalPlane>& local, Clustering c,
+                   const RivalOptions& options) {
+  c = weigh_evidence(grid, neighbors, scale, std::move(c), options.evidence);
+  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+}
+
+OptionList list_options(RivalOptions& o) {
+  return {
+      {"rival.scale.noise", &o.scale.noise, "m",
+       "standard deviation of the points off their surface; 0 = from the scan", 0},
+      {"rival.scale.spacing", &o.scale.spacing, "m",
+       "between neighbouring points on a surface; 0 = from the scan", 0},
+      {"rival.scale.voxel", &o.scale.voxel, "m", "edge of the voxels; 0 = from noise and spacing",
+       0},
+      {"rival.scale.min_noise", &o.scale.min_noise, "m",
+       "a scan is not taken to be better than this", 0},
+      {"rival.scale.min_voxel", &o.scale.min_voxel, "m",
+       "voxels are not smaller where their size is derived", 0},
+      {"rival.scale.voxel_per_spacing", &o.scale.voxel_per_spacing, "",
+       "a voxel's edge in spacings", 0},
+      {"rival.scale.voxel_per_noise", &o.scale.voxel_per_noise, "",
+       "and at least so many times the noise", 0},
+      {"rival.scale.depth_step", &o.scale.depth_step, "1/m",
+       "a depth camera's noise is at least this times range squared", 0},
+      {"rival.neighbors.min_points", &o.neighbors.min_points, "",
+       "a neighbourhood grows until it holds so many", 0},
+      {"rival.neighbors.max_reach", &o.neighbors.max_reach, "voxel", "but it reaches no farther", 1,
+       8},
+      {"rival.local.max_noise", &o.local.max_noise, "noise", "planar is what is no rougher", 0},
+      {"rival.local.min_extent", &o.local.min_extent, "noise",
+       "and what is at least so wide, as a standard deviation", 0},
+      {"rival.local.min_ratio", &o.local.min_ratio, "",
+       "of the variances along and off the plane, at least", 0},
+      {"rival.growth.max_distance", &o.growth.max_distance, "noise",
+       "a site with one point is taken from no farther", 0},
+      {"rival.growth.max_rms", &o.growth.max_rms, "noise",
+       "one with many may be no rougher about the plane", 0},
+      {"rival.growth.max_angle", &o.growth.max_angle, "rad",
+       "between the plane and those of its sites' neighbourhoods", 0},
+      {"rival.growth.min_points", &o.growth.min_points, "", "clusters of fewer are dropped", 0},
+      {"rival.rivalry.max_sweeps", &o.rivalry.max_sweeps, "", "rivalry ends after so many", 0},
+      {"rival.rivalry.stop_share", &o.rivalry.stop_share, "",
+       "of the changes of the sweep with most: with fewer, it ends", 0},
+      {"rival.rivalry.smoothness", &o.rivalry.smoothness, "",
+       "price of a site among others' sites, in squared noise", 0},
+      {"rival.rivalry.wrong_normal", &o.rivalry.wrong_normal, "",
+       "price per point where the neighbourhood's plane is another", 0},
+      {"rival.rivalry.max_angle", &o.rivalry.max_angle, "rad",
+       "another plane is one at more than this", 0},
+      {"rival.rivalry.no_plane", &o.rivalry.no_plane, "",
+       "price per point of being in no cluster, in squared noise", 0},
+      {"rival.rivalry.weight", &o.rivalry.weight, "",
+       "points of a site that count; the others do not add evidence", 0},
+      {"rival.merge.max_rms", &o.merge.max_rms, "noise", "of each part about the plane in common",
+       0},
+      {"rival.birth_rounds", &o.birth_rounds, "",
+       "in which clusters are grown from what no cluster explains", 0, 100},
+      {"rival.birth_reach", &o.birth_reach, "voxel",
+       "that the neighbourhoods of what is left may reach", 1, 8},
+      {"rival.split.reach", &o.split.reach, "voxel", "in which a crossing cluster must be there", 1,
+       8},
+      {"rival.split.min_points", &o.split.min_points, "",
+       "parts of fewer points are left to whoever competes for them", 0},
+      {"rival.bridge.max_gap", &o.bridge.max_gap, "voxel",
+       "coplanar clusters are united across no more", 0, 8},
+      {"rival.bridge.reach", &o.bridge.reach, "voxel", "in which a crossing cluster must be there",
+       1, 8},
+      {"rival.bridge.max_rms", &o.bridge.max_rms, "noise", "of each part about the plane in common",
+       0},
+      {"rival.bridge.open_share", &o.bridge.open_share, "",
+       "of the shortest links that nothing may cross, at least", 0},
+      {"rival.evidence.min_points", &o.evidence.min_points, "",
+       "clusters of fewer points are dropped", 0},
+      {"rival.evidence.min_area", &o.evidence.min_area, "m2", "and those of less area", 0},
+      {"rival.evidence.area_noise", &o.evidence.area_noise, "",
+       "and the square of this many times the noise", 0},
+      {"rival.evidence.min_density", &o.evidence.min_density, "",
+       "points where the spacing of the scan leads to expect one", 0},
+      {"rival.evidence.sparse_points", &o.evidence.sparse_points, "",
+       "clusters with so many may be less dense", 0},
+      {"rival.evidence.explained_share", &o.evidence.explained_share, "",
+       "of the points that larger clusters next to them explain as well", 0},
+      {"rival.evidence.explained_distance", &o.evidence.explained_distance, "noise",
+       "from the larger one's plane", 0},
+      {"rival.evidence.small_area", &o.evidence.small_area, "m2",
+       "smaller clusters may be pieces of something round", 0},
+      {"rival.evidence.bend_share", &o.evidence.bend_share, "",
+       "of the variance off the plane that a bend may explain", 0},
+      {"rival.evidence.bend_chance", &o.evidence.bend_chance, "",
+       "over the number of points: the share that chance may explain", 0},
+      {"rival.evidence.bend_height", &o.evidence.bend_height, "noise", "rms of a bend that counts",
+       0},
+      {"rival.evidence.long_aspect", &o.evidence.long_aspect, "",
+       "clusters longer than so many times their width may bend more", 0},
+      {"rival.evidence.long_bend_share", &o.evidence.long_bend_share, "",
+       "this much, as they take in strips of their neighbours: faces of a column", 0},
+      {"rival.evidence.surrounded", &o.evidence.surrounded, "",
+       "points in no cluster around a small one, per point of its own", 0},
+      {"rival.evidence.surrounded_area", &o.evidence.surrounded_area, "m2",
+       "of a small one in this sense", 0},
+      {"rival.evidence.surrounded_rounds", &o.evidence.surrounded_rounds, "",
+       "in which those surrounded are dropped", 0},
+      {"rival.labels.max_distance", &o.labels.max_distance, "noise",
+       "points farther from a plane are not in it", 0},
+      {"rival.labels.max_own", &o.labels.max_own, "noise",
+       "nor are points farther than so many times its own noise", 0},
+      {"rival.labels.min_noise", &o.labels.min_noise, "noise",
+       "a plane's own noise is at least this", 0},
+      {"rival.labels.smoothness", &o.labels.smoothness, "",
+       "price of a point among other clusters' sites, in squared noise", 0},
+      {"rival.labels.min_points", &o.labels.min_points, "",
+       "planes with fewer points in the end are dropped", 0},
+  };
+}
+
+}  // namespace scanworld::rival

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The default method: clusters compete for voxels, whose moments stand for their points. Its stages
+// are the headers of this folder; docs/method.md explains them. Their options are here together.
+#pragma once
+
+#include "../options.h"
+#include "bridge.h"
+#include "evidence.h"
+#include "growth.h"
+#include "labels.h"
+#include "local.h"
+#include "merge.h"
+#include "neighbors.h"
+#include "rivalry.h"
+#include "scale.h"
+#include "split.h"
+
+namespace scanworld::rival {
+
+struct RivalOptions {
+  ScaleOptions scale;
+  NeighborOptions neighbors;
+  LocalOptions local;
+  GrowthOptions growth;
+  RivalryOptions rivalry;
+  MergeOptions merge;
+  int birth_rounds = 1;  // in which clusters are grown from what no cluster explains
+  int birth_reach = 4;   // [voxels] that the neighbourhoods of what is left may reach
+  SplitOptions split;
+  BridgeOptions bridge;
+  EvidenceOptions evidence;
+  LabelOptions labels;
+};
+
+// All of them by name, "rival.scale.noise" and so on.
+OptionList list_options(RivalOptions& options);
+
+// Lets clusters compete until they settle, then grows new ones from the sites that are in none and
+// lets these compete too. The local planes of those sites become those of what is left.
+Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                  std::vector<LocalPlane> local, Clustering clustering,
+                  const RivalOptions& options = {});
+
+// Makes each cluster one connected face: parts what other planes divide and bridges what is only
+// hidden.
+Clustering part(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                const std::vector<LocalPlane>& local, Clustering clustering,
+                const RivalOptions& options = {});
+
+// Drops what is no plane, and lets the others compete for what is left.
+Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                   const std::vector<LocalPlane>& local, Clustering clustering,
+                   const RivalOptions& options = {});
+
+}  // namespace scanworld::rival

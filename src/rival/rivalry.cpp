@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rivalry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../parallel.h"
+
+namespace scanworld::rival {
+
+namespace {
+
+constexpr std::size_t kPart = 1 << 12;
+
+struct Votes {
+  struct Entry {
+    std::int32_t label;
+    int count;
+  };
+  std::array<Entry, 12> entries;
+  std::size_t size = 0;
+  int total = 0;
+
+  void add(std::int32_t label) {
+    ++total;
+    if (label == kNone) return;
+    for (std::size_t k = 0; k < size; ++k)
+      if (entries[k].label == label) {
+        ++entries[k].count;
+        return;
+      }
+    if (size < entries.size()) entries[size++] = {label, 1};
+  }
+};
+
+// The label that explains a site at the lowest price. Notes whether it has others around it.
+std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, const Grid& grid,
+                        const std::vector<LocalPlane>& local, Clustering& c, const Scale& scale,
+                        float cos_angle, const RivalryOptions& options) {
+  Votes votes;
+  for (std::uint32_t j : around)
+    if (j != i) votes.add(c.label[j]);
+  const std::int32_t own = c.label[i];
+  if (own != kNone) {
+    votes.add(own);
+    --votes.total;
+  }
+  c.border[i] = votes.size > (own == kNone ? 0 : 1);
+  if (votes.size == 0) return kNone;
+  const Site& s = grid.sites[i];
+  const double per_square = 1 / scale.variance_at(s.position());
+  const double n = std::min<double>(s.points, options.weight);
+  double best = n * options.no_plane + options.smoothness;
+  std::int32_t label = kNone;
+  for (std::size_t k = 0; k < votes.size; ++k) {
+    const auto& e = votes.entries[k];
+    const Plane& plane = c.plane(e.label);
+    const double d = plane.signed_distance(s.position());
+    const double ms = (d * d + s.variance(plane.normal)) * per_square;
+    double price = n * std::min(ms, 16.0);
+    if (local[i].planar() && std::abs(local[i].normal.dot(plane.normal.cast<float>())) < cos_angle)
+      price += n * options.wrong_normal;
+    const int others = votes.total - e.count + (e.label == own ? 1 : 0);
+    price += options.smoothness * others / std::max(votes.total, 1);
+    if (price < best || (price == best && e.label < label)) best = price, label = e.label;
+  }
+  return label;
+}
+
+}  // namespace
+
+Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                   const std::vector<LocalPlane>& local, Clustering c,
+                   const RivalryOptions& options) {
+  struct Change {
+    std::uint32_t site;
+    std::int32_t label;
+  };
+  const float cos_angle = static_cast<float>(std::cos(options.max_angle));
+  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  std::size_t most = 0;
+  for (int sweep = 0; sweep < options.max_sweeps; ++sweep) {
+    std::vector<std::vector<Change>> found(parts);
+    parallel_for(parts, [&](std::size_t part) {
+      const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!c.awake[i]) continue;
+        c.awake[i] = 0;
+        const std::int32_t label =
+            best_label(i, neighbors.of(i), grid, local, c, scale, cos_angle, options);
+        if (label != c.label[i]) found[part].push_back({static_cast<std::uint32_t>(i), label});
+      }
+    });
+    std::vector<char> changed(c.clusters.size());
+    const auto move = [&](std::int32_t l, const Moments& m, bool in) {
+      if (l == kNone) return;
+      Moments& sum = c.clusters[static_cast<std::size_t>(l)].moments;
+      in ? sum += m : sum -= m;
+      changed[static_cast<std::size_t>(l)] = 1;
+    };
+    std::size_t changes = 0;
+    for (const auto& list : found)
+      for (const Change& change : list) {
+        const Moments m = grid.sites[change.site].moments();
+        move(c.label[change.site], m, false);
+        move(change.label, m, true);
+        c.label[change.site] = change.label;
+        for (std::uint32_t j : neighbors.of(change.site)) c.awake[j] = 1;
+        ++changes;
+      }
+    for (std::size_t k = 0; k < changed.size(); ++k)
+      if (changed[k] && c.clusters[k].moments.n > 3) c.clusters[k].fit = fit(c.clusters[k].moments);
+    most = std::max(most, changes);
+    if (static_cast<double>(changes) <= options.stop_share * static_cast<double>(most)) break;
+  }
+  refit(grid, c);
+  return c;
+}
+
+}  // namespace scanworld::rival

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "../parallel.h"
+#include "moments.h"
+
+namespace scanworld::rival {
+
+namespace {
+
+constexpr std::size_t kPart = 1 << 16;
+constexpr std::size_t kMinPoints = 12;   // in a cell that is looked at
+constexpr std::size_t kMaxPoints = 400;  // of a cell are looked at
+constexpr std::size_t kMinCells = 24;    // that hold a plane, for a size of cells to be believed
+constexpr double kSmallest = 0.15, kLargest = 1e5;  // [m] cells
+
+struct Sample {
+  std::uint64_t cell;
+  std::uint32_t point;
+};
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64, S. Vigna
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// The points of every `rate`-th cell of this size, by cell.
+std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
+  const std::size_t parts = part_count(cloud.points.size(), kPart);
+  std::vector<std::vector<Sample>> found(parts);
+  const float inverse = static_cast<float>(1 / size);
+  constexpr std::int64_t kBias = 1 << 20;  // makes all positive, so that casts round down
+  parallel_for(parts, [&](std::size_t i) {
+    const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3 at = (cloud.points[k] * inverse).cast<double>();
+      if (!(at.array().abs() < 1e6).all()) continue;
+      std::uint64_t key = 0;
+      for (int a = 0; a < 3; ++a)
+        key = key << 21 | static_cast<std::uint64_t>(at[a] + static_cast<double>(kBias));
+      if (mix(key) % rate == 0) found[i].push_back({key, static_cast<std::uint32_t>(k)});
+    }
+  });
+  std::vector<Sample> all;
+  for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
+  return all;
+}
+
+struct CellFit {
+  double rms = 0, spacing = 0;
+  Vec3 centroid = Vec3::Zero();
+};
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// One plane through most of the points, by refitting to those within 2.5 standard deviations
+// (taken from the median absolute distance); no rms where they do not lie in one.
+CellFit fit_cell(const std::vector<Vec3>& points, double size) {
+  Moments all;
+  for (const Vec3& p : points) all += p;
+  MomentFit plane = fit(all);
+  std::vector<double> off(points.size());
+  Moments inliers;
+  double deviation = 0;
+  for (int round = 0; round < 6; ++round) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      off[i] = std::abs(plane.plane.signed_distance(points[i]));
+    deviation = 1.4826 * quantile(off, 0.5);
+    inliers = {};
+    for (const Vec3& p : points)
+      if (std::abs(plane.plane.signed_distance(p)) <= 2.5 * deviation) inliers += p;
+    if (inliers.n < 6) return {};
+    plane = fit(inliers);
+  }
+  const bool one_plane = inliers.n >= 0.75 * static_cast<double>(points.size()) &&
+                         std::sqrt(plane.variance[1]) > 3 * deviation;
+  if (!one_plane) return {};
+  // A plane near the border of its cell misses the points that noise has put into the next one.
+  const Vec3 middle = ((plane.centroid / size).array().floor() + 0.5) * size;
+  if (std::abs(plane.plane.signed_distance(middle)) > size / 4 || size < 10 * deviation) return {};
+  return {std::sqrt(plane.variance[0] * inliers.n / (inliers.n - 3)) + 1e-12,
+          std::sqrt(12 * std::sqrt(plane.variance[1] * plane.variance[2]) / inliers.n),
+          plane.centroid};
+}
+
+std::vector<CellFit> fit_cells(const PointCloud& cloud, double size) {
+  const std::uint64_t rate = std::max<std::uint64_t>(1, cloud.points.size() / 25000);
+  std::vector<Sample> samples = sample_cells(cloud, size, rate);
+  // In each cell by position, so that the same points are taken whatever their order.
+  const auto before = [&](const Sample& a, const Sample& b) {
+    if (a.cell != b.cell) return a.cell < b.cell;
+    const Vec3f &p = cloud.points[a.point], &q = cloud.points[b.point];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  std::sort(samples.begin(), samples.end(), before);
+  std::vector<std::size_t> first = {0};
+  for (std::size_t i = 1; i <= samples.size(); ++i)
+    if (i == samples.size() || samples[i].cell != samples[i - 1].cell) first.push_back(i);
+  std::vector<CellFit> fits(first.size() - 1);
+  parallel_for(fits.size(), [&](std::size_t c) {
+    const std::size_t count = first[c + 1] - first[c];
+    if (samples.empty() || count < kMinPoints) return;
+    const std::size_t step = (count + kMaxPoints - 1) / kMaxPoints;
+    std::vector<Vec3> points;
+    for (std::size_t i = first[c]; i < first[c + 1]; i += step)
+      points.push_back(cloud.points[samples[i].point].cast<double>());
+    fits[c] = fit_cell(points, size);
+    fits[c].spacing /= std::sqrt(static_cast<double>(step));
+  });
+  std::erase_if(fits, [](const CellFit& f) { return f.rms == 0; });
+  return fits;
+}
+
+// Noise and spacing by the smallest cells that agree with the next larger ones about noise; without
+// agreement by the largest that say anything.
+Scale look(const PointCloud& cloud, const Scale& camera) {
+  Scale last;
+  std::size_t last_cells = 0;
+  for (double size = kSmallest; size < kLargest; size *= 2) {
+    const std::vector<CellFit> fits = fit_cells(cloud, size);
+    if (fits.size() < kMinCells && last_cells >= kMinCells) break;
+    if (fits.empty()) continue;
+    std::vector<double> rms, spacing;
+    for (const CellFit& f : fits) {
+      // What the camera's model does not explain.
+      const double modelled = camera.noise_at(f.centroid);
+      rms.push_back(f.rms > modelled ? f.rms : 0);
+      spacing.push_back(f.spacing);
+    }
+    const Scale now{quantile(rms, 0.75), quantile(spacing, 0.5)};
+    if (last_cells >= kMinCells && now.noise < 1.2 * last.noise) break;
+    last = now, last_cells = fits.size();
+  }
+  return last;
+}
+
+}  // namespace
+
+Scale estimate_scale(const PointCloud& cloud, const ScaleOptions& options) {
+  Scale scale{options.noise, options.spacing, options.voxel, options.depth_step};
+  if (!cloud.viewpoints.empty()) scale.camera = cloud.viewpoints[0];
+  if (scale.noise == 0 || scale.spacing == 0) {
+    const Scale seen = look(cloud, scale);
+    if (scale.noise == 0) scale.noise = seen.noise;
+    if (scale.spacing == 0) scale.spacing = seen.spacing;
+  }
+  scale.noise = std::max(scale.noise, options.min_noise);
+  if (scale.voxel == 0)
+    scale.voxel = std::max({options.min_voxel, options.voxel_per_spacing * scale.spacing,
+                            options.voxel_per_noise * scale.noise});
+  return scale;
+}
+
+}  // namespace scanworld::rival
