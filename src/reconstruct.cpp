@@ -145,12 +145,20 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
                               [&] { return estimate_scale(cloud, options.scale); });
   result.report.scale = scale.voxel;
   result.report.spacing = scale.spacing;
-  const Grid grid = log.run("Sorting into voxels", "points -> sites", cloud,
-                            [&] { return build_grid(cloud, scale.voxel); });
-  const Neighbors neighbors = log.run("Finding neighbours", "sites -> sites", grid,
-                                      [&] { return find_neighbors(grid, options.neighbors); });
-  const std::vector<LocalPlane> local = log.run("Fitting locally", "sites -> sites", grid, [&] {
+  Grid grid = log.run("Sorting into voxels", "points -> sites", cloud,
+                      [&] { return build_grid(cloud, scale.voxel); });
+  Neighbors neighbors = log.run("Finding neighbours", "sites -> sites", grid,
+                                [&] { return find_neighbors(grid, options.neighbors); });
+  std::vector<LocalPlane> local = log.run("Fitting locally", "sites -> sites", grid, [&] {
     return fit_locally(grid, neighbors, scale, options.local);
+  });
+  grid = log.run("Parting sides", "sites -> sites", grid, [&] {
+    return part_sides(cloud, std::move(grid), neighbors, local, scale, options.sides);
+  });
+  local = log.run("Fitting sides", "sites -> sites", grid, [&] {
+    std::vector<std::uint8_t> changed;
+    neighbors = update_neighbors(grid, options.neighbors, std::move(neighbors), changed);
+    return fit_locally(grid, neighbors, scale, options.local, std::move(local), changed);
   });
   Clustering clusters = log.run("Growing clusters", "sites -> clusters", local, [&] {
     return grow_clusters(grid, neighbors, scale, local, {}, options.growth);
@@ -182,7 +190,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 17);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 19);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);

@@ -277,4 +277,39 @@ Grid build_grid(const PointCloud& cloud, double voxel) {
   return grid;
 }
 
+void part_site(const PointCloud& cloud, std::uint32_t i, const Plane& between, Grid& grid) {
+  grid.separator.resize(grid.sites.size(), -1);
+  grid.twin.resize(grid.sites.size(), -1);
+  grid.separator[i] = static_cast<std::int32_t>(grid.separators.size());
+  grid.separators.push_back(between);
+
+  const auto begin = grid.points.begin() + grid.sites[i].first;
+  const auto end = begin + grid.sites[i].points;
+  const auto middle = std::stable_partition(begin, end, [&](std::uint32_t p) {
+    return between.signed_distance(cloud.points[p].cast<double>()) > 0;
+  });
+  if (middle == begin || middle == end) return;
+  const Raster raster(grid.voxel);
+  const auto site_of = [&](auto from, auto to) {
+    Sums sums;
+    Place at;
+    for (auto p = from; p != to; ++p) {
+      raster.place(cloud.points[*p], at);
+      sums.add({static_cast<std::uint16_t>(at.within[0]), static_cast<std::uint16_t>(at.within[1]),
+                static_cast<std::uint16_t>(at.within[2])});
+    }
+    Site site = sums.site(at.voxel, grid.voxel);
+    site.first = static_cast<std::uint32_t>(from - grid.points.begin());
+    site.voxel = grid.sites[i].voxel;
+    return site;
+  };
+  const Site before = site_of(begin, middle), behind = site_of(middle, end);
+  const bool more_before = before.points >= behind.points;
+  grid.sites[i] = more_before ? before : behind;
+  grid.twin[i] = static_cast<std::int32_t>(grid.sites.size());
+  grid.sites.push_back(more_before ? behind : before);
+  grid.twin.push_back(-1);
+  grid.separator.push_back(grid.separator[i]);
+}
+
 }  // namespace scanworld::rival

@@ -39,15 +39,19 @@ struct Grid {
   std::vector<Block> blocks;
   std::vector<Site> sites;
   std::vector<std::uint32_t> points;  // indices into the cloud, site by site
+  // Where a voxel holds both sides of a thin wall: the plane between them, by site, and the site of
+  // the other side. Sites of other sides come after all others. Empty where there are none.
+  std::vector<std::int32_t> separator, twin;  // index or -1, for each site
+  std::vector<Plane> separators;
 
   std::span<const std::uint32_t> points_of(std::size_t site) const {
     return {points.data() + sites[site].first, sites[site].points};
   }
 
   // Calls body(site) for each site no more than `reach` voxels (at most 8) from that of `site`
-  // along each axis, itself included.
+  // along each axis, itself included; without those no more than `inner` voxels away, where given.
   template <typename Body>
-  void for_each_near(std::size_t site, int reach, Body body) const;
+  void for_each_near(std::size_t site, int reach, Body body, int inner = -1) const;
 };
 
 inline std::size_t count_of(const Grid& grid) { return grid.sites.size(); }
@@ -57,9 +61,23 @@ inline std::size_t count_of(const Grid& grid) { return grid.sites.size(); }
 // from all others.
 Grid build_grid(const PointCloud& cloud, double voxel);
 
-template <typename Body>
-void Grid::for_each_near(std::size_t site, int reach, Body body) const {
+// Notes the plane between the two sides of a wall that are around a site; where the site's own
+// points are on both, the fewer become a new site.
+void part_site(const PointCloud& cloud, std::uint32_t site, const Plane& between, Grid& grid);
+
+// The bits y << 3 | x of a word with |x - at_x| and |y - at_y| up to `reach`, where any are.
+inline std::uint64_t square_mask(int at_x, int at_y, int reach) {
+  const int x0 = std::max(at_x - reach, 0), x1 = std::min(at_x + reach, 7);
+  const int y0 = std::max(at_y - reach, 0), y1 = std::min(at_y + reach, 7);
+  if (x0 > x1 || y0 > y1) return 0;
   constexpr std::uint64_t kEachRow = 0x0101010101010101u;
+  const std::uint64_t row = (std::uint64_t{0xff} >> (7 - x1 + x0)) << x0;
+  const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - y1 + y0))) << (8 * y0);
+  return kEachRow * row & rows;
+}
+
+template <typename Body>
+void Grid::for_each_near(std::size_t site, int reach, Body body, int inner) const {
   const std::uint32_t v = sites[site].voxel;
   const Block& home = blocks[v >> 9];
   const int x = static_cast<int>(v & 7), y = static_cast<int>(v >> 3 & 7),
@@ -73,18 +91,17 @@ void Grid::for_each_near(std::size_t site, int reach, Body body) const {
         const Block& block = blocks[static_cast<std::size_t>(b)];
         const std::uint64_t word = block.occupied[static_cast<std::size_t>(zz & 7)];
         if (word == 0) continue;
-        const int x0 = std::max(x - reach - (bx - 1) * 8, 0),
-                  x1 = std::min(x + reach - (bx - 1) * 8, 7);
-        const int y0 = std::max(y - reach - (by - 1) * 8, 0),
-                  y1 = std::min(y + reach - (by - 1) * 8, 7);
-        const std::uint64_t row = (std::uint64_t{0xff} >> (7 - x1 + x0)) << x0;
-        const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - y1 + y0))) << (8 * y0);
-        std::uint64_t bits = word & (kEachRow * row) & rows;
+        const int dx = x - (bx - 1) * 8, dy = y - (by - 1) * 8;
+        std::uint64_t bits = word & square_mask(dx, dy, reach);
+        if (inner >= 0 && std::abs(zz - z) <= inner) bits &= ~square_mask(dx, dy, inner);
         while (bits != 0) {
           const int bit = std::countr_zero(bits);
           bits &= bits - 1;
-          body(block.first[static_cast<std::size_t>(zz & 7)] +
-               static_cast<std::uint32_t>(std::popcount(word & ((std::uint64_t{1} << bit) - 1))));
+          const std::uint32_t at =
+              block.first[static_cast<std::size_t>(zz & 7)] +
+              static_cast<std::uint32_t>(std::popcount(word & ((std::uint64_t{1} << bit) - 1)));
+          body(at);
+          if (!twin.empty() && twin[at] >= 0) body(static_cast<std::uint32_t>(twin[at]));
         }
       }
 }

@@ -79,6 +79,7 @@ LocalPlane fit_at(const Grid& grid, std::span<const std::uint32_t> around, std::
   const float square = f.least * n / (n - 3);
   const float wide = f.middle;
   const float rms = std::sqrt(square);
+  local.ratio = wide / std::max(f.least, std::numeric_limits<float>::min());
   if (rms <= static_cast<float>(options.max_noise) * noise &&
       wide > static_cast<float>(options.min_ratio) * f.least &&
       std::sqrt(wide) > static_cast<float>(options.min_extent) * noise)
@@ -90,12 +91,13 @@ LocalPlane fit_at(const Grid& grid, std::span<const std::uint32_t> around, std::
 
 std::vector<LocalPlane> fit_locally(const Grid& grid, const Neighbors& neighbors,
                                     const Scale& scale, const LocalOptions& options,
-                                    std::vector<LocalPlane> planes) {
+                                    std::vector<LocalPlane> planes,
+                                    const std::vector<std::uint8_t>& only) {
   planes.resize(grid.sites.size());
   parallel_for(part_count(planes.size(), kPart), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, planes.size(), kPart);
     for (std::size_t i = begin; i < end; ++i)
-      if (const auto around = neighbors.of(i); !around.empty())
+      if (const auto around = neighbors.of(i); !around.empty() && (only.empty() || only[i]))
         planes[i] = fit_at(grid, around, i, scale, options);
   });
   return planes;

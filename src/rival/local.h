@@ -20,14 +20,16 @@ struct LocalOptions {
 struct LocalPlane {
   Vec3f normal = Vec3f::Zero();
   float rank = std::numeric_limits<float>::infinity();  // the less, the flatter; finite if planar
+  float ratio = 0;                                      // of the variances along and off the plane
 
   bool planar() const { return rank < std::numeric_limits<float>::infinity(); }
 };
 
-// Fits a plane to the neighbourhood of each site that has neighbours; the others keep theirs in
-// `planes`, where there are any.
+// Fits a plane to the neighbourhood of each site that has neighbours. The others keep theirs in
+// `planes`, where there are any; so do those that `only`, where not empty, does not mark.
 std::vector<LocalPlane> fit_locally(const Grid& grid, const Neighbors& neighbors,
                                     const Scale& scale, const LocalOptions& options = {},
-                                    std::vector<LocalPlane> planes = {});
+                                    std::vector<LocalPlane> planes = {},
+                                    const std::vector<std::uint8_t>& only = {});
 
 }  // namespace scanworld::rival

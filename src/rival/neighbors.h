@@ -40,8 +40,14 @@ inline std::size_t count_of(const Neighbors& neighbors) {
   return count;
 }
 
-// `only`: where not empty, sites that it does not mark have no neighbours and are none.
+// Where two sides of a wall are around a site, its neighbours are on its own side. `only`: where
+// not empty, sites that it does not mark have no neighbours and are none.
 Neighbors find_neighbors(const Grid& grid, const NeighborOptions& options = {},
                          const std::vector<std::uint8_t>& only = {});
+
+// The neighbours after sides were parted: lists in which nothing has changed are those of `before`.
+// Marks the sites whose neighbours are new.
+Neighbors update_neighbors(const Grid& grid, const NeighborOptions& options, Neighbors before,
+                           std::vector<std::uint8_t>& changed);
 
 }  // namespace scanworld::rival

@@ -15,6 +15,7 @@
 #include "neighbors.h"
 #include "rivalry.h"
 #include "scale.h"
+#include "sides.h"
 #include "split.h"
 
 namespace scanworld::rival {
@@ -23,6 +24,7 @@ struct RivalOptions {
   ScaleOptions scale;
   NeighborOptions neighbors;
   LocalOptions local;
+  SidesOptions sides;
   GrowthOptions growth;
   RivalryOptions rivalry;
   MergeOptions merge;

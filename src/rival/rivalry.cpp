@@ -25,27 +25,34 @@ struct Votes {
   void add(std::int32_t label) {
     ++total;
     if (label == kNone) return;
-    for (std::size_t k = 0; k < size; ++k)
-      if (entries[k].label == label) {
-        ++entries[k].count;
+    if (label == last) {
+      ++entries[at].count;
+      return;
+    }
+    last = label;
+    for (at = 0; at < size; ++at)
+      if (entries[at].label == label) {
+        ++entries[at].count;
         return;
       }
     if (size < entries.size()) entries[size++] = {label, 1};
+    if (at >= size) last = kNone, at = 0;
   }
+
+ private:
+  std::int32_t last = kNone;  // the label added before, and where it is
+  std::size_t at = 0;
 };
 
 // The label that explains a site at the lowest price. Notes whether it has others around it.
 std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, const Grid& grid,
                         const std::vector<LocalPlane>& local, Clustering& c, const Scale& scale,
                         float cos_angle, const RivalryOptions& options) {
+  // The site itself is among its neighbours.
   Votes votes;
-  for (std::uint32_t j : around)
-    if (j != i) votes.add(c.label[j]);
+  for (std::uint32_t j : around) votes.add(c.label[j]);
   const std::int32_t own = c.label[i];
-  if (own != kNone) {
-    votes.add(own);
-    --votes.total;
-  }
+  --votes.total;
   c.border[i] = votes.size > (own == kNone ? 0 : 1);
   if (votes.size == 0) return kNone;
   const Site& s = grid.sites[i];

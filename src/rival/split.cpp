@@ -10,6 +10,12 @@
 
 namespace scanworld::rival {
 
+namespace {
+
+constexpr double kMaxCosine = 0.7;  // between the normals of planes that cross (45 degrees)
+
+}  // namespace
+
 Clustering split_clusters(const Grid& grid, const Neighbors& neighbors, Clustering c,
                           const SplitOptions& options) {
   const std::size_t count = grid.sites.size();
@@ -23,33 +29,37 @@ Clustering split_clusters(const Grid& grid, const Neighbors& neighbors, Clusteri
   for (std::size_t i = 0; i < count; ++i)
     if (c.label[i] != kNone && c.may_border(i))
       for (std::uint32_t j : neighbors.of(i)) near_border[j] = 1;
+  // The clusters at an angle to that of site i which are around it.
   std::vector<std::int32_t> crossing;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t own = c.label[i];
-    if (own == kNone) continue;
+  const auto find_crossing = [&](std::size_t i) {
     crossing.clear();
-    if (near_border[i]) {
-      const Vec3 normal = c.plane(own).normal;
-      const auto look = [&](std::size_t j) {
-        const std::int32_t l = c.label[j];
-        if (l == kNone || l == own ||
-            std::find(crossing.begin(), crossing.end(), l) != crossing.end())
-          return;
-        if (std::abs(c.plane(l).normal.dot(normal)) < 0.7) crossing.push_back(l);
-      };
-      grid.for_each_near(i, options.reach, look);
-      for (std::uint32_t j : neighbors.of(i)) look(j);
-    }
-    const Vec3 here = grid.sites[i].position();
+    if (!near_border[i]) return;
+    const Vec3 normal = c.plane(c.label[i]).normal;
+    const auto look = [&](std::size_t j) {
+      const std::int32_t l = c.label[j];
+      if (l != kNone && l != c.label[i] &&
+          std::find(crossing.begin(), crossing.end(), l) == crossing.end() &&
+          std::abs(c.plane(l).normal.dot(normal)) < kMaxCosine)
+        crossing.push_back(l);
+    };
+    grid.for_each_near(i, options.reach, look);
+    for (std::uint32_t j : neighbors.of(i)) look(j);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (c.label[i] == kNone) continue;
+    bool looked = false;
     for (std::uint32_t j : neighbors.of(i)) {
-      if (j >= i || c.label[j] != own) continue;
+      // Mostly they are in one part already; then there is nothing to test.
+      if (c.label[j] != c.label[i] || find(static_cast<std::uint32_t>(i)) == find(j)) continue;
+      if (!looked) find_crossing(i), looked = true;
       const bool apart = std::any_of(crossing.begin(), crossing.end(), [&](std::int32_t l) {
-        const Plane& plane = c.plane(l);
-        return plane.signed_distance(here) * plane.signed_distance(grid.sites[j].position()) < 0;
+        return c.plane(l).signed_distance(grid.sites[i].position()) *
+                   c.plane(l).signed_distance(grid.sites[j].position()) <
+               0;
       });
       if (apart) continue;
       const std::uint32_t a = find(static_cast<std::uint32_t>(i)), b = find(j);
-      if (a != b) to[std::max(a, b)] = std::min(a, b);
+      to[std::max(a, b)] = std::min(a, b);
     }
   }
   std::vector<double> points(count);
