@@ -43,6 +43,9 @@ double median_rms(const std::vector<FoundSurface>& surfaces) {
   return *middle;
 }
 
+// A scan with more than this is hardly one in metres.
+constexpr double kLargestNoise = 0.3, kLargestSpacing = 1.5;  // [m]
+
 // What the polygons are made of: points, the walls that they are in, and the length to measure by.
 struct Walls {
   std::vector<Vec3> points;
@@ -145,6 +148,10 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
                               [&] { return estimate_scale(cloud, options.scale); });
   result.report.scale = scale.voxel;
   result.report.spacing = scale.spacing;
+  if (scale.noise > kLargestNoise || scale.spacing > kLargestSpacing)
+    result.report.warnings.push_back(fmt::format(
+        "the noise is {:.3g} m and points are {:.3g} m apart: are the coordinates metres?",
+        scale.noise, scale.spacing));
   Grid grid = log.run("Sorting into voxels", "points -> sites", cloud,
                       [&] { return build_grid(cloud, scale.voxel); });
   Neighbors neighbors = log.run("Finding neighbours", "sites -> sites", grid,
@@ -172,6 +179,8 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
   clusters = log.run("Weighing evidence", "clusters -> clusters", clusters, [&] {
     return confirm(grid, neighbors, scale, local, std::move(clusters), options);
   });
+  clusters = log.run("Regularising", "clusters -> clusters", clusters,
+                     [&] { return regularise(scale, std::move(clusters), options.regularise); });
   LabelledPoints labelled = log.run("Labelling points", "points -> planes", cloud, [&] {
     return label_points(cloud, grid, neighbors, scale, clusters, options.labels);
   });
@@ -190,7 +199,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 19);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 20);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);

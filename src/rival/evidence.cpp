@@ -58,6 +58,7 @@ bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
   const double seen = 0.6 * static_cast<double>(sites) * scale.voxel * scale.voxel;
   const double noise = scale.noise_at(cluster.fit.centroid);
   if (seen < options.min_area || area < std::pow(options.area_noise * noise, 2)) return true;
+  if (std::sqrt(12 * cluster.fit.variance[1]) < options.min_width * scale.voxel) return true;
   return n < options.sparse_points &&
          n * scale.spacing * scale.spacing < options.min_density * area;
 }

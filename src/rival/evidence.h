@@ -12,6 +12,7 @@ struct EvidenceOptions {
   double min_points = 60;
   double min_area = 0.04;         // [m2]
   double area_noise = 18;         // and the square of this many times the noise
+  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge
   double min_density = 0.1;       // points where the spacing of the scan leads to expect one
   double sparse_points = 300;     // clusters with so many may be less dense
   double explained_share = 0.7;   // of the points that larger clusters next to them explain as well

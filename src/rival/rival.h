@@ -13,6 +13,7 @@
 #include "local.h"
 #include "merge.h"
 #include "neighbors.h"
+#include "regularise.h"
 #include "rivalry.h"
 #include "scale.h"
 #include "sides.h"
@@ -33,6 +34,7 @@ struct RivalOptions {
   SplitOptions split;
   BridgeOptions bridge;
   EvidenceOptions evidence;
+  RegulariseOptions regularise;
   LabelOptions labels;
 };
 
