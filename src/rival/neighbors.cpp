@@ -44,6 +44,7 @@ Neighbors::Part make_part(const Part& range, const Add& add) {
   Neighbors::Part part;
   std::vector<std::uint32_t> list;
   part.first = {0};
+  list.reserve(16 * (range.end - range.begin));
   part.first.reserve(range.end - range.begin + 1);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     add(i, list);

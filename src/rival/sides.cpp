@@ -13,40 +13,42 @@ namespace scanworld::rival {
 namespace {
 
 constexpr std::size_t kPart = 1 << 12;
-constexpr std::size_t kMaxPoints = 128;  // around a site are looked at
+constexpr int kRounds = 4;  // of 2-means
 
-// Some points' offsets along a normal, from the lowest, and what they add up to.
+// What offsets along a normal add up to.
 struct Layer {
   double n = 0, sum = 0, squares = 0;
 
-  void add(double x) { n += 1, sum += x, squares += x * x; }
+  // `points` with this mean and variance.
+  void add(double mean, double points = 1, double variance = 0) {
+    n += points, sum += points * mean, squares += points * (mean * mean + variance);
+  }
   double mean() const { return sum / n; }
   double scatter() const { return squares - sum * sum / n; }
 };
 
-// The offset between two layers that leaves the least scatter in them (Otsu 1979), if they are two.
-std::optional<double> separate(std::vector<double>& offsets, double noise,
+// A point's offset along a normal, or that of several together.
+struct Offset {
+  double mean, points, variance;
+};
+
+// The offset half-way between two layers, by 2-means (Lloyd 1982), if they are two.
+std::optional<double> separate(const std::vector<Offset>& offsets, double noise,
                                const SidesOptions& options) {
-  std::sort(offsets.begin(), offsets.end());
-  Layer low, all;
-  for (double x : offsets) all.add(x);
-  double best = all.scatter();
-  std::size_t at = 0;
-  Layer best_low;
-  for (std::size_t k = 0; k + 1 < offsets.size(); ++k) {
-    low.add(offsets[k]);
-    const Layer high{all.n - low.n, all.sum - low.sum, all.squares - low.squares};
-    if (const double left = low.scatter() + high.scatter(); left < best)
-      best = left, at = k, best_low = low;
+  Layer all, low, high;
+  for (const Offset& o : offsets) all.add(o.mean, o.points, o.variance);
+  double between = all.mean();
+  for (int round = 0; round < kRounds; ++round) {
+    low = high = {};
+    for (const Offset& o : offsets)
+      (o.mean < between ? low : high).add(o.mean, o.points, o.variance);
+    if (std::min(low.n, high.n) < options.min_share * all.n) return std::nullopt;
+    between = (low.mean() + high.mean()) / 2;
   }
-  if (best_low.n == 0) return std::nullopt;
-  const Layer high{all.n - best_low.n, all.sum - best_low.sum, all.squares - best_low.squares};
-  const double share = std::min(best_low.n, high.n) / all.n;
-  const double rms = std::sqrt(std::max(0.0, best) / all.n);
-  if (share < options.min_share || rms > options.max_noise * noise ||
-      high.mean() - best_low.mean() < options.min_distance * noise)
+  const double rms = std::sqrt(std::max(0.0, low.scatter() + high.scatter()) / all.n);
+  if (rms > options.max_noise * noise || high.mean() - low.mean() < options.min_distance * noise)
     return std::nullopt;
-  return (offsets[at] + offsets[at + 1]) / 2;
+  return between;
 }
 
 // The same by the points' normals: half-way between those that point along the axis and the others.
@@ -59,30 +61,38 @@ std::optional<double> separate_by_normals(const Layer& along, const Layer& again
   return (along.mean() + against.mean()) / 2;
 }
 
+// Whether a site may hold points of two layers.
+bool is_mixed(const Site& site, const Vec3& normal, double noise, const SidesOptions& options) {
+  return site.points > 1 && site.variance(normal) > std::pow(options.max_noise * noise, 2);
+}
+
 // The plane between the layers around a site, if there are two.
 std::optional<Plane> find_separator(const PointCloud& cloud, const Grid& grid, std::size_t i,
                                     const Neighbors& neighbors, const LocalPlane& local,
                                     const Scale& scale, const SidesOptions& options,
-                                    std::vector<double>& offsets) {
+                                    std::vector<Offset>& offsets) {
   const Vec3 normal = local.normal.cast<double>(), here = grid.sites[i].position();
-  const auto around = neighbors.of(i);
-  std::size_t points = 0;
-  for (std::uint32_t j : around) points += grid.sites[j].points;
-  const std::size_t step = points / kMaxPoints + 1;
-  offsets.clear();
-  Layer along, against;
-  for (std::uint32_t j : around) {
-    const auto of_site = grid.points_of(j);
-    for (std::size_t k = 0; k < of_site.size(); k += step) {
-      const double x = normal.dot(cloud.points[of_site[k]].cast<double>() - here);
-      offsets.push_back(x);
-      if (!cloud.normals.empty())
-        (cloud.normals[of_site[k]].dot(local.normal) > 0 ? along : against).add(x);
-    }
-  }
   const double noise = scale.noise_at(here);
-  const auto between = cloud.normals.empty() ? separate(offsets, noise, options)
-                                             : separate_by_normals(along, against, noise, options);
+  const auto offset = [&](const Vec3f& p) { return normal.dot(p.cast<double>() - here); };
+  std::optional<double> between;
+  if (cloud.normals.empty()) {
+    offsets.clear();
+    for (std::uint32_t j : neighbors.of(i)) {
+      const Site& s = grid.sites[j];
+      if (is_mixed(s, normal, noise, options))
+        for (std::uint32_t p : grid.points_of(j))
+          offsets.push_back({offset(cloud.points[p]), 1, 0});
+      else
+        offsets.push_back({offset(s.mean), static_cast<double>(s.points), s.variance(normal)});
+    }
+    between = separate(offsets, noise, options);
+  } else {
+    Layer along, against;
+    for (std::uint32_t j : neighbors.of(i))
+      for (std::uint32_t p : grid.points_of(j))
+        (cloud.normals[p].dot(local.normal) > 0 ? along : against).add(offset(cloud.points[p]));
+    between = separate_by_normals(along, against, noise, options);
+  }
   if (!between) return std::nullopt;
   return plane_through(here + *between * normal, normal);
 }
@@ -96,12 +106,15 @@ Grid part_sides(const PointCloud& cloud, Grid grid, const Neighbors& neighbors,
   std::vector<std::vector<std::pair<std::uint32_t, Plane>>> found(part_count(count, kPart));
   parallel_for(found.size(), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, count, kPart);
-    std::vector<double> offsets;
-    for (std::size_t i = begin; i < end; ++i)
-      if (local[i].ratio >= options.min_ratio && (!local[i].planar() || !cloud.normals.empty()))
-        if (const auto plane =
-                find_separator(cloud, grid, i, neighbors, local[i], scale, options, offsets))
-          found[part].push_back({static_cast<std::uint32_t>(i), *plane});
+    std::vector<Offset> offsets;
+    for (std::size_t i = begin; i < end; ++i) {
+      // Normals may tell two sides where all is within the noise of one plane.
+      if (local[i].ratio < options.min_ratio || (local[i].planar() && cloud.normals.empty()))
+        continue;
+      if (const auto plane =
+              find_separator(cloud, grid, i, neighbors, local[i], scale, options, offsets))
+        found[part].push_back({static_cast<std::uint32_t>(i), *plane});
+    }
   });
   for (const auto& list : found)
     for (const auto& [i, plane] : list) part_site(cloud, i, plane, grid);
