@@ -21,8 +21,13 @@ std::size_t out_of(const Report& report, std::string_view stage) {
 }
 
 Json json_of(const StageReport& s) {
-  return {{"name", s.name}, {"seconds", s.seconds}, {"cpu_seconds", s.cpu_seconds},
-          {"in", s.in},     {"out", s.out},         {"what", s.what}};
+  return {{"name", s.name},
+          {"seconds", s.seconds},
+          {"cpu_seconds", s.cpu_seconds},
+          {"peak_memory_mb", s.peak_memory_mb},
+          {"in", s.in},
+          {"out", s.out},
+          {"what", s.what}};
 }
 
 Json planes_json(const ReconstructResult& result) {

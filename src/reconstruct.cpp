@@ -181,6 +181,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
   });
   clusters = log.run("Regularising", "clusters -> clusters", clusters,
                      [&] { return regularise(scale, std::move(clusters), options.regularise); });
+  local = {};
   LabelledPoints labelled = log.run("Labelling points", "points -> planes", cloud, [&] {
     return label_points(cloud, grid, neighbors, scale, clusters, options.labels);
   });

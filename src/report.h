@@ -17,8 +17,9 @@ namespace scanworld {
 // What one stage did.
 struct StageReport {
   std::string name;
-  double seconds = 0;      // on the wall
-  double cpu_seconds = 0;  // of all threads
+  double seconds = 0;         // on the wall
+  double cpu_seconds = 0;     // of all threads
+  double peak_memory_mb = 0;  // of the process, up to the end of the stage
   std::size_t in = 0, out = 0;
   std::string what;  // it takes and gives: "points -> medians"
 };
@@ -70,8 +71,8 @@ class StageLog {
     const double cpu = cpu_seconds();
     auto result = body();
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    report_.stages.push_back({std::string(name), wall.count(), cpu_seconds() - cpu, count_in,
-                              count_of(result), std::string(what)});
+    report_.stages.push_back({std::string(name), wall.count(), cpu_seconds() - cpu,
+                              peak_memory_mb(), count_in, count_of(result), std::string(what)});
     return result;
   }
 

@@ -54,56 +54,67 @@ std::array<int, 3> block_of(std::uint64_t key) {
 std::uint64_t block_key(const Place& at) {
   return key_of(at.voxel[0] >> 3, at.voxel[1] >> 3, at.voxel[2] >> 3);
 }
-// Open addressing from keys to their positions in a sorted list.
+// A hash table with open addressing from blocks' keys to numbers, which grows.
 class BlockIndex {
  public:
-  explicit BlockIndex(const std::vector<std::uint64_t>& keys)
-      : mask_(std::bit_ceil(2 * keys.size() + 2) - 1), slots_(mask_ + 1, {~0ull, -1}) {
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      std::size_t at = hash(keys[i]) & mask_;
-      while (slots_[at].second >= 0) at = (at + 1) & mask_;
-      slots_[at] = {keys[i], static_cast<std::int32_t>(i)};
-    }
+  // Adds the key with this number; where it is there already, changes nothing and tells so.
+  bool add(std::uint64_t key, std::int32_t number) {
+    if (2 * (size_ + 1) > slots_.size()) grow();
+    Slot& slot = slots_[place_of(key)];
+    if (slot.number >= 0) return false;
+    slot = {key, number};
+    ++size_;
+    return true;
   }
-  std::int32_t find(std::uint64_t key) const {
-    for (std::size_t at = hash(key) & mask_; slots_[at].second >= 0; at = (at + 1) & mask_)
-      if (slots_[at].first == key) return slots_[at].second;
-    return -1;
-  }
+  // The key's number, or -1.
+  std::int32_t find(std::uint64_t key) const { return slots_[place_of(key)].number; }
 
  private:
-  static std::size_t hash(std::uint64_t key) {
-    key *= 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(key ^ key >> 29);
+  struct Slot {
+    std::uint64_t key;
+    std::int32_t number;
+  };
+
+  // Where the key is, or would be put.
+  std::size_t place_of(std::uint64_t key) const {
+    std::uint64_t hash = key * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = hash & mask;
+    while (slots_[at].number >= 0 && slots_[at].key != key) at = (at + 1) & mask;
+    return at;
   }
-  std::size_t mask_;
-  std::vector<std::pair<std::uint64_t, std::int32_t>> slots_;
+  void grow() {
+    const std::vector<Slot> before =
+        std::exchange(slots_, std::vector<Slot>(2 * slots_.size(), Slot{0, -1}));
+    for (const Slot& slot : before)
+      if (slot.number >= 0) slots_[place_of(slot.key)] = slot;
+  }
+
+  std::size_t size_ = 0;
+  std::vector<Slot> slots_ = std::vector<Slot>(1 << 10, Slot{0, -1});
 };
 
+// The keys of all blocks that hold points, ascending.
 std::vector<std::uint64_t> find_blocks(const PointCloud& cloud, const Raster& raster) {
   const std::size_t parts = part_count(cloud.points.size(), kPart);
   std::vector<std::vector<std::uint64_t>> found(parts);
-  const auto tidy = [](std::vector<std::uint64_t>& keys) {
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  };
   parallel_for(parts, [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
-    // Points come in runs, so that most are in a block that was just seen.
-    std::array<std::uint64_t, 1024> seen;
-    seen.fill(~0ull);
+    BlockIndex seen;
     Place at;
+    std::uint64_t last = ~0ull;
     for (std::size_t k = begin; k < end; ++k) {
       if (!raster.place(cloud.points[k], at)) continue;
       const std::uint64_t key = block_key(at);
-      std::uint64_t& slot = seen[(key ^ key >> 17 ^ key >> 33) & 1023];
-      if (slot != key) slot = key, found[i].push_back(key);
+      if (key != last && seen.add(key, 0)) found[i].push_back(key);
+      last = key;
     }
-    tidy(found[i]);
   });
   std::vector<std::uint64_t> all;
   for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
-  tidy(all);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -193,6 +204,7 @@ class BlockFiller {
  public:
   BlockFiller(const Sorted& sorted, double voxel) : sorted_(sorted), voxel_(voxel) {}
 
+  // `corner`: of the block, in voxels; `points`: those of the sorted, which are reordered in place.
   void fill(std::size_t b, const std::array<int, 3>& corner, std::vector<std::uint32_t>& points,
             Block& block, std::vector<Site>& sites) {
     const std::size_t start = sorted_.first[b], count = sorted_.first[b + 1] - start;
@@ -207,7 +219,7 @@ class BlockFiller {
     reordered_.resize(count), from_.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t to = next[voxel_at(k)]++;
-      reordered_[to] = sorted_.points[start + k], from_[to] = static_cast<std::uint32_t>(k);
+      reordered_[to] = points[start + k], from_[to] = static_cast<std::uint32_t>(k);
     }
     std::copy(reordered_.begin(), reordered_.end(),
               points.begin() + static_cast<std::ptrdiff_t>(start));
@@ -233,23 +245,15 @@ class BlockFiller {
   std::vector<std::uint32_t> reordered_, from_;
 };
 
-}  // namespace
-
-Grid build_grid(const PointCloud& cloud, double voxel) {
-  const Raster raster(voxel);
-  const std::vector<std::uint64_t> keys = find_blocks(cloud, raster);
-  const BlockIndex index(keys);
-  const Sorted sorted = sort_by_block(cloud, raster, index, keys.size());
-
-  Grid grid;
-  grid.voxel = voxel;
-  grid.points.resize(sorted.points.size());
-  grid.blocks.resize(keys.size());
+// Fills all blocks; gives their sites in parts.
+std::vector<std::vector<Site>> fill_blocks(const Sorted& sorted,
+                                           const std::vector<std::uint64_t>& keys,
+                                           const BlockIndex& index, Grid& grid) {
   constexpr std::size_t kBlocks = 64;
   std::vector<std::vector<Site>> sites(part_count(keys.size(), kBlocks));
   parallel_for(sites.size(), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, keys.size(), kBlocks);
-    BlockFiller filler(sorted, voxel);
+    BlockFiller filler(sorted, grid.voxel);
     for (std::size_t b = begin; b < end; ++b) {
       Block& block = grid.blocks[b];
       const std::array<int, 3> at = block_of(keys[b]);
@@ -264,6 +268,29 @@ Grid build_grid(const PointCloud& cloud, double voxel) {
         filler.fill(b, {at[0] * 8, at[1] * 8, at[2] * 8}, grid.points, block, sites[part]);
     }
   });
+  return sites;
+}
+
+}  // namespace
+
+Grid build_grid(const PointCloud& cloud, double voxel) {
+  const Raster raster(voxel);
+  const std::vector<std::uint64_t> keys = find_blocks(cloud, raster);
+  BlockIndex index;
+  for (std::size_t b = 0; b < keys.size(); ++b) index.add(keys[b], static_cast<std::int32_t>(b));
+
+  Grid grid;
+  grid.voxel = voxel;
+  grid.blocks.resize(keys.size());
+  std::vector<std::vector<Site>> sites;
+  {
+    Sorted sorted = sort_by_block(cloud, raster, index, keys.size());
+    grid.points = std::move(sorted.points);
+    sites = fill_blocks(sorted, keys, index, grid);
+  }
+  std::size_t count = 0;
+  for (const auto& s : sites) count += s.size();
+  grid.sites.reserve(count + count / 32);  // room for sites that are parted later
   for (auto& s : sites) {
     grid.sites.insert(grid.sites.end(), s.begin(), s.end());
     s = {};

@@ -5,7 +5,7 @@
 namespace scanworld::rival {
 
 Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                  std::vector<LocalPlane> local, Clustering c, const RivalOptions& options) {
+                  std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options) {
   c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
   c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
   NeighborOptions wider = options.neighbors;

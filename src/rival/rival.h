@@ -44,7 +44,7 @@ OptionList list_options(RivalOptions& options);
 // Lets clusters compete until they settle, then grows new ones from the sites that are in none and
 // lets these compete too. The local planes of those sites become those of what is left.
 Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                  std::vector<LocalPlane> local, Clustering clustering,
+                  std::vector<LocalPlane>& local, Clustering clustering,
                   const RivalOptions& options = {});
 
 // Makes each cluster one connected face: parts what other planes divide and bridges what is only

@@ -3,6 +3,7 @@
 #include "scale.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,7 +33,7 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64, S. Vigna
   return x ^ (x >> 31);
 }
 
-// The points of every `rate`-th cell of this size, by cell.
+// The points of every `rate`-th cell of this size, by cell; `rate` is a power of two.
 std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
   const std::size_t parts = part_count(cloud.points.size(), kPart);
   std::vector<std::vector<Sample>> found(parts);
@@ -46,7 +47,7 @@ std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint
       std::uint64_t key = 0;
       for (int a = 0; a < 3; ++a)
         key = key << 21 | static_cast<std::uint64_t>(at[a] + static_cast<double>(kBias));
-      if (mix(key) % rate == 0) found[i].push_back({key, static_cast<std::uint32_t>(k)});
+      if ((mix(key) & (rate - 1)) == 0) found[i].push_back({key, static_cast<std::uint32_t>(k)});
     }
   });
   std::vector<Sample> all;
@@ -97,7 +98,8 @@ CellFit fit_cell(const std::vector<Vec3>& points, double size) {
 }
 
 std::vector<CellFit> fit_cells(const PointCloud& cloud, double size) {
-  const std::uint64_t rate = std::max<std::uint64_t>(1, cloud.points.size() / 25000);
+  const std::uint64_t rate =
+      std::bit_floor(std::max<std::uint64_t>(1, cloud.points.size() / 20000));
   std::vector<Sample> samples = sample_cells(cloud, size, rate);
   // In each cell by position, so that the same points are taken whatever their order.
   const auto before = [&](const Sample& a, const Sample& b) {
