@@ -148,6 +148,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
                               [&] { return estimate_scale(cloud, options.scale); });
   result.report.scale = scale.voxel;
   result.report.spacing = scale.spacing;
+  result.report.noise = scale.noise;
   if (scale.noise > kLargestNoise || scale.spacing > kLargestSpacing)
     result.report.warnings.push_back(fmt::format(
         "the noise is {:.3g} m and points are {:.3g} m apart: are the coordinates metres?",
@@ -210,7 +211,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
         Cause::nothing_found,
         fmt::format("no plane found in {} points (they were looked at in cubes of {:.3g} m)",
                     cloud.points.size(), result.report.scale));
-  result.report.noise = median_rms(surfaces);
+  if (result.report.noise == 0) result.report.noise = median_rms(surfaces);
   result.world = assemble_world(surfaces, find_frame(cloud, surfaces));
 
   ReconstructOptions used = options;

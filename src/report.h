@@ -27,9 +27,11 @@ struct StageReport {
 // What was found on the way from a scan to a world.
 struct Report {
   std::vector<StageReport> stages;
-  double scale = 0;    // [m] the length that the method measured in
-  double noise = 0;    // [m] median over the surfaces of their points' distances from them (rms)
-  double spacing = 0;  // [m] between neighbouring points, where the method looks at it
+  double scale = 0;  // [m] the length that the method measured in
+  // [m] of the points off their surfaces, as estimated and used; the median of the surfaces' rms
+  // where the method uses none.
+  double noise = 0;
+  double spacing = 0;               // [m] between neighbouring points, where the method looks at it
   std::vector<double> plane_noise;  // [m] of each surface's points, where the method tells it
   std::vector<std::string> warnings;
 };

@@ -66,11 +66,12 @@ bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
 bool is_bent(const Grid& grid, const std::vector<std::uint32_t>& sites, const Cluster& cluster,
              const Scale& scale, const EvidenceOptions& options) {
   if (area_of(cluster) > options.small_area) return false;
-  const Vec3& v = cluster.fit.variance;
-  const bool is_long = v[2] > options.long_aspect * options.long_aspect * v[1];
-  const double share = is_long ? options.long_bend_share : options.bend_share;
   const Bend bend = measure_bend(grid, sites, cluster.fit);
-  return bend.share > share + options.bend_chance / cluster.moments.n &&
+  // A parabola over a length l has the rms k l^2 / (8 * 3.35).
+  const double square_length = 12 * cluster.fit.variance[2];
+  const double curvature = 8 * 3.35 * bend.rms / square_length;
+  return (curvature > options.min_curvature || bend.rms > options.high_bend) &&
+         bend.share > options.bend_share + options.bend_chance / cluster.moments.n &&
          bend.rms > options.bend_height * scale.noise_at(cluster.fit.centroid);
 }
 

@@ -21,8 +21,8 @@ struct EvidenceOptions {
   double bend_share = 0.05;       // of the variance off the plane that a bend may explain
   double bend_chance = 15;        // over the number of points: the share that chance may explain
   double bend_height = 0.3;       // [noise] rms of a bend that counts
-  double long_aspect = 4;         // clusters longer than so many times their width may bend more,
-  double long_bend_share = 0.3;   // as they take in strips of their neighbours: faces of a column
+  double min_curvature = 0.3;     // [1/m] flatter bends are those of real walls and of calibration,
+  double high_bend = 0.005;       // [m] unless their rms is more than this
   double surrounded = 0.5;        // points in no cluster around a small one, per point of its own
   double surrounded_area = 0.5;   // [m2] of a small one in this sense
   int surrounded_rounds = 3;

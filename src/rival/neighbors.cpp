@@ -20,8 +20,13 @@ void add_neighbors(const Grid& grid, std::size_t i, const NeighborOptions& optio
     return between->signed_distance(grid.sites[j].position()) > 0;
   };
   const bool own_side = between && is_before(i);
+  const std::size_t start = list.size();
   int points = 0;
-  for (int reach = 1; reach <= options.max_reach && points < options.min_points; ++reach) {
+  const auto is_enough = [&] {
+    return points >= options.min_points &&
+           list.size() >= start + static_cast<std::size_t>(options.min_sites);
+  };
+  for (int reach = 1; reach <= options.max_reach && !is_enough(); ++reach) {
     const auto add = [&](std::uint32_t j) {
       if (!only.empty() && !only[j]) return;
       if (between && is_before(j) != own_side) return;

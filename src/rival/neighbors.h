@@ -12,6 +12,7 @@ namespace scanworld::rival {
 
 struct NeighborOptions {
   int min_points = 12;  // a neighbourhood grows until it holds so many
+  int min_sites = 6;    // in so many voxels, as a single scan line is no neighbourhood
   int max_reach = 3;    // [voxels] but no farther
 };
 

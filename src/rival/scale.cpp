@@ -17,9 +17,13 @@ namespace scanworld::rival {
 namespace {
 
 constexpr std::size_t kPart = 1 << 16;
-constexpr std::size_t kMinPoints = 12;   // in a cell that is looked at
-constexpr std::size_t kMaxPoints = 400;  // of a cell are looked at
-constexpr std::size_t kMinCells = 24;    // that hold a plane, for a size of cells to be believed
+constexpr std::size_t kMinPoints = 12;    // in a cell that is looked at
+constexpr std::size_t kEnoughCells = 80;  // with a plane: no more are looked for
+constexpr double kWanted = 20000;         // points in the smallest cells that are looked at
+constexpr double kAgreement = 1.2, kOtherPlanes = 1.6;  // ratios of noise in cells twice as large
+constexpr double kMinSize = 12;                         // [noise] of cells that show all of it
+constexpr std::size_t kMaxPoints = 400;                 // of a cell are looked at
+constexpr std::size_t kMinCells = 24;  // that hold a plane, for a size of cells to be believed
 constexpr double kSmallest = 0.15, kLargest = 1e5;  // [m] cells
 
 struct Sample {
@@ -47,7 +51,8 @@ std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint
       std::uint64_t key = 0;
       for (int a = 0; a < 3; ++a)
         key = key << 21 | static_cast<std::uint64_t>(at[a] + static_cast<double>(kBias));
-      if ((mix(key) & (rate - 1)) == 0) found[i].push_back({key, static_cast<std::uint32_t>(k)});
+      if ((mix(key) & (std::max<std::uint64_t>(rate, 1) - 1)) == 0)
+        found[i].push_back({key, static_cast<std::uint32_t>(k)});
     }
   });
   std::vector<Sample> all;
@@ -97,9 +102,7 @@ CellFit fit_cell(const std::vector<Vec3>& points, double size) {
           plane.centroid};
 }
 
-std::vector<CellFit> fit_cells(const PointCloud& cloud, double size) {
-  const std::uint64_t rate =
-      std::bit_floor(std::max<std::uint64_t>(1, cloud.points.size() / 20000));
+std::vector<CellFit> fit_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
   std::vector<Sample> samples = sample_cells(cloud, size, rate);
   // In each cell by position, so that the same points are taken whatever their order.
   const auto before = [&](const Sample& a, const Sample& b) {
@@ -126,25 +129,38 @@ std::vector<CellFit> fit_cells(const PointCloud& cloud, double size) {
   return fits;
 }
 
-// Noise and spacing by the smallest cells that agree with the next larger ones about noise; without
-// agreement by the largest that say anything.
+// Noise and spacing by the smallest cells that are much larger than the noise (others leave out
+// where there is most of it), that a good part of the scan fills, and that agree with the next
+// larger ones about noise. Much more noise in those is that of several planes.
 Scale look(const PointCloud& cloud, const Scale& camera) {
   Scale last;
-  std::size_t last_cells = 0;
+  bool is_good = false;
   for (double size = kSmallest; size < kLargest; size *= 2) {
-    const std::vector<CellFit> fits = fit_cells(cloud, size);
-    if (fits.size() < kMinCells && last_cells >= kMinCells) break;
+    // Larger cells need more points for as many of them, dense scans even more.
+    const auto wanted = static_cast<std::uint64_t>(kWanted * size / kSmallest);
+    std::uint64_t rate = std::bit_floor(std::max<std::uint64_t>(1, cloud.points.size() / wanted));
+    std::vector<CellFit> fits = fit_cells(cloud, size, rate);
+    while (fits.size() < kEnoughCells && rate > 1) fits = fit_cells(cloud, size, rate /= 4);
+    if (fits.size() < kMinCells && is_good) break;
     if (fits.empty()) continue;
-    std::vector<double> rms, spacing;
+    std::vector<double> rms, spacing, modelled_noise;
     for (const CellFit& f : fits) {
       // What the camera's model does not explain.
       const double modelled = camera.noise_at(f.centroid);
+      modelled_noise.push_back(modelled);
       rms.push_back(f.rms > modelled ? f.rms : 0);
       spacing.push_back(f.spacing);
     }
-    const Scale now{quantile(rms, 0.75), quantile(spacing, 0.5)};
-    if (last_cells >= kMinCells && now.noise < 1.2 * last.noise) break;
-    last = now, last_cells = fits.size();
+    const Scale now{.noise = quantile(rms, 0.75),
+                    .spacing = quantile(spacing, 0.5),
+                    .voxel = quantile(modelled_noise, 0.5)};
+    if (is_good && now.noise > kOtherPlanes * last.noise) break;
+    if (is_good && now.noise <= kAgreement * last.noise) {
+      last.noise = (last.noise + now.noise) / 2;
+      break;
+    }
+    last = now;
+    is_good = fits.size() >= kMinCells && size >= kMinSize * last.noise;
   }
   return last;
 }
@@ -154,15 +170,17 @@ Scale look(const PointCloud& cloud, const Scale& camera) {
 Scale estimate_scale(const PointCloud& cloud, const ScaleOptions& options) {
   Scale scale{options.noise, options.spacing, options.voxel, options.depth_step};
   if (!cloud.viewpoints.empty()) scale.camera = cloud.viewpoints[0];
+  double far_noise = 0;  // [m] of a camera, at the far end of the scan
   if (scale.noise == 0 || scale.spacing == 0) {
     const Scale seen = look(cloud, scale);
+    far_noise = seen.voxel;
     if (scale.noise == 0) scale.noise = seen.noise;
     if (scale.spacing == 0) scale.spacing = seen.spacing;
   }
   scale.noise = std::max(scale.noise, options.min_noise);
   if (scale.voxel == 0)
     scale.voxel = std::max({options.min_voxel, options.voxel_per_spacing * scale.spacing,
-                            options.voxel_per_noise * scale.noise});
+                            options.voxel_per_noise * std::max(scale.noise, far_noise)});
   return scale;
 }
 
