@@ -139,6 +139,22 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
   return make_polygons(cloud, {filtered.points, walls, delta}, tree, result.labels, options, log);
 }
 
+// Turns surfaces to the side that most of their points' normals point to.
+void face_normals(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
+                  std::vector<FoundSurface>& surfaces) {
+  std::vector<std::int64_t> along(surfaces.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    const auto l = static_cast<std::size_t>(labels[i]);
+    along[l] += cloud.normals[i].cast<double>().dot(surfaces[l].plane.normal) > 0 ? 1 : -1;
+  }
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (along[k] < 0) {
+      surfaces[k].plane = surfaces[k].plane.flipped();
+      std::reverse(surfaces[k].outer.begin(), surfaces[k].outer.end());
+    }
+}
+
 // The default method, docs/method.md.
 std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const ReconstructOptions& all,
                                         StageLog& log, ReconstructResult& result) {
@@ -193,7 +209,10 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
                               [&] { return walls_of(grid, clusters, labelled); });
   const thesis::KdTree tree = log.run("Building the tree", "points -> nodes", walls,
                                       [&] { return thesis::KdTree(walls.points); });
-  return make_polygons(cloud, walls, tree, result.labels, all.thesis, log);
+  std::vector<FoundSurface> surfaces =
+      make_polygons(cloud, walls, tree, result.labels, all.thesis, log);
+  if (!cloud.normals.empty()) face_normals(cloud, result.labels, surfaces);
+  return surfaces;
 }
 
 }  // namespace

@@ -37,11 +37,20 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64, S. Vigna
   return x ^ (x >> 31);
 }
 
+// Where cells of this size begin, in their edges: elsewhere for each size, so that no plane is at
+// the border of cells of all sizes.
+double shift_of(double size) {
+  constexpr double kFirst = 0.37, kGolden = 0.618;
+  const double shift = kFirst + kGolden * std::round(std::log2(size / kSmallest));
+  return shift - std::floor(shift);
+}
+
 // The points of every `rate`-th cell of this size, by cell; `rate` is a power of two.
 std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
   const std::size_t parts = part_count(cloud.points.size(), kPart);
   std::vector<std::vector<Sample>> found(parts);
   const float inverse = static_cast<float>(1 / size);
+  const double shift = shift_of(size);
   constexpr std::int64_t kBias = 1 << 20;  // makes all positive, so that casts round down
   parallel_for(parts, [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
@@ -50,7 +59,7 @@ std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint
       if (!(at.array().abs() < 1e6).all()) continue;
       std::uint64_t key = 0;
       for (int a = 0; a < 3; ++a)
-        key = key << 21 | static_cast<std::uint64_t>(at[a] + static_cast<double>(kBias));
+        key = key << 21 | static_cast<std::uint64_t>(at[a] + shift + static_cast<double>(kBias));
       if ((mix(key) & (std::max<std::uint64_t>(rate, 1) - 1)) == 0)
         found[i].push_back({key, static_cast<std::uint32_t>(k)});
     }
@@ -95,7 +104,9 @@ CellFit fit_cell(const std::vector<Vec3>& points, double size) {
                          std::sqrt(plane.variance[1]) > 3 * deviation;
   if (!one_plane) return {};
   // A plane near the border of its cell misses the points that noise has put into the next one.
-  const Vec3 middle = ((plane.centroid / size).array().floor() + 0.5) * size;
+  const double shift = shift_of(size);
+  const Vec3 middle =
+      ((plane.centroid / size).array() + shift).floor() * size + (0.5 - shift) * size;
   if (std::abs(plane.plane.signed_distance(middle)) > size / 4 || size < 10 * deviation) return {};
   return {std::sqrt(plane.variance[0] * inliers.n / (inliers.n - 3)) + 1e-12,
           std::sqrt(12 * std::sqrt(plane.variance[1] * plane.variance[2]) / inliers.n),

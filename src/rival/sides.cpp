@@ -85,13 +85,21 @@ std::optional<Plane> find_separator(const PointCloud& cloud, const Grid& grid, s
       else
         offsets.push_back({offset(s.mean), static_cast<double>(s.points), s.variance(normal)});
     }
+    // Sums must not depend on the order of the points.
+    std::sort(offsets.begin(), offsets.end(),
+              [](const Offset& a, const Offset& b) { return a.mean < b.mean; });
     between = separate(offsets, noise, options);
   } else {
-    Layer along, against;
+    std::array<std::vector<double>, 2> sides;  // against the normal, and along it
     for (std::uint32_t j : neighbors.of(i))
       for (std::uint32_t p : grid.points_of(j))
-        (cloud.normals[p].dot(local.normal) > 0 ? along : against).add(offset(cloud.points[p]));
-    between = separate_by_normals(along, against, noise, options);
+        sides[cloud.normals[p].dot(local.normal) > 0].push_back(offset(cloud.points[p]));
+    std::array<Layer, 2> layers;
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::sort(sides[k].begin(), sides[k].end());
+      for (double x : sides[k]) layers[k].add(x);
+    }
+    between = separate_by_normals(layers[1], layers[0], noise, options);
   }
   if (!between) return std::nullopt;
   return plane_through(here + *between * normal, normal);

@@ -13,7 +13,7 @@ namespace scanworld::thesis {
 namespace {
 
 constexpr double kFrontDepth = 4;  // [m] how far before and behind a polygon the place is looked at
-constexpr std::size_t kFrontPoints = 5000;  // of all points so many are looked at, about
+constexpr std::size_t kFrontPoints = 20000;  // of all points so many are looked at, about
 
 // What the points of one cluster add up to, in whole numbers: their order does not matter.
 struct Sums {
