@@ -139,3 +139,26 @@ TEST_CASE("a camera's image is levelled by its largest floor, and the assumption
   CHECK(world.surfaces[1].kind == Kind::wall);
   CHECK(contains(world.frame.assumed.back(), "camera"));
 }
+
+TEST_CASE("a scan in centimetres makes a world, and is warned of") {
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.04, 0.01);
+  CHECK(reconstruct(cloud).report.warnings.empty());
+  for (Vec3f& p : cloud.points) p *= 100;
+  const ReconstructResult result = reconstruct(cloud);
+  CHECK(result.world.surfaces.size() == 6);
+  REQUIRE(result.report.warnings.size() == 1);
+  CHECK(contains(result.report.warnings[0], "metres"));
+}
+
+TEST_CASE("normals tell which side of a surface is free") {
+  PointCloud cloud;
+  Random random(1);
+  add_rectangle(cloud, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0.03, 0.005, random);
+  for (float up : {1.f, -1.f}) {
+    cloud.normals.assign(cloud.points.size(), Vec3f(0, 0, up));
+    const World world = reconstruct(cloud).world;
+    REQUIRE(world.surfaces.size() == 1);
+    CHECK(world.surfaces[0].plane.normal.z() == doctest::Approx(static_cast<double>(up)));
+    CHECK(validate(world).empty());
+  }
+}

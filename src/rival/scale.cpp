@@ -17,9 +17,8 @@ namespace scanworld::rival {
 namespace {
 
 constexpr std::size_t kPart = 1 << 16;
-constexpr std::size_t kMinPoints = 12;    // in a cell that is looked at
-constexpr std::size_t kEnoughCells = 80;  // with a plane: no more are looked for
-constexpr double kWanted = 20000;         // points in the smallest cells that are looked at
+constexpr std::size_t kMinPoints = 12;  // in a cell that is looked at
+constexpr double kWanted = 20000;       // points in the smallest cells that are looked at
 constexpr double kAgreement = 1.2, kOtherPlanes = 1.6;  // ratios of noise in cells twice as large
 constexpr double kMinSize = 12;                         // [noise] of cells that show all of it
 constexpr std::size_t kMaxPoints = 400;                 // of a cell are looked at
@@ -151,7 +150,7 @@ Scale look(const PointCloud& cloud, const Scale& camera) {
     const auto wanted = static_cast<std::uint64_t>(kWanted * size / kSmallest);
     std::uint64_t rate = std::bit_floor(std::max<std::uint64_t>(1, cloud.points.size() / wanted));
     std::vector<CellFit> fits = fit_cells(cloud, size, rate);
-    while (fits.size() < kEnoughCells && rate > 1) fits = fit_cells(cloud, size, rate /= 4);
+    while (fits.size() < kMinCells && rate > 1) fits = fit_cells(cloud, size, rate /= 4);
     if (fits.size() < kMinCells && is_good) break;
     if (fits.empty()) continue;
     std::vector<double> rms, spacing, modelled_noise;

@@ -65,7 +65,7 @@ Clustering split_clusters(const Grid& grid, const Neighbors& neighbors, Clusteri
   std::vector<double> points(count);
   for (std::size_t i = 0; i < count; ++i)
     if (c.label[i] != kNone) points[find(static_cast<std::uint32_t>(i))] += grid.sites[i].points;
-  // A cluster with fewer than two large parts stays as it is; small parts of the others go to none.
+  // A cluster without a large part stays as it is; small parts of the others go to none.
   std::vector<int> large_parts(c.clusters.size());
   for (std::size_t i = 0; i < count; ++i)
     if (points[i] >= options.min_points) ++large_parts[static_cast<std::size_t>(c.label[i])];

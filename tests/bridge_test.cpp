@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rival/bridge.h"
+
+#include "support/stages.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+using namespace scanworld::rival;
+
+namespace {
+
+// Two walls in one plane with a gap between them, the second set back by `step`; in the middle of
+// the gap a wall that crosses, where asked for.
+struct Scene {
+  double gap = 0.2, step = 0;
+  bool crossing = false;
+  double crossing_height = 2;
+};
+
+Stages gap_stages(const Scene& scene) {
+  PointCloud cloud;
+  Random random(1);
+  add_rectangle(cloud, {-1.5 - scene.gap / 2, 0, 0}, {1.5, 0, 0}, {0, 0, 2}, 0.02, 0.004, random);
+  add_rectangle(cloud, {scene.gap / 2, scene.step, 0}, {1.5, 0, 0}, {0, 0, 2}, 0.02, 0.004, random);
+  if (scene.crossing)
+    add_rectangle(cloud, {0, -1, 0}, {0, 2, 0}, {0, 0, scene.crossing_height}, 0.02, 0.004, random);
+  return run_stages(std::move(cloud), known_scale(0.004, 0.02));
+}
+
+std::size_t bridged(const Scene& scene, const BridgeOptions& options = {}) {
+  const Stages s = gap_stages(scene);
+  const Clustering start = label_sites(s.grid, [&](const Vec3& p) {
+    return std::abs(p.x()) < scene.gap / 2 - 0.03 ? 2 : p.x() < 0 ? 0 : 1;
+  });
+  const Clustering c = bridge_clusters(s.grid, s.scale, start, options);
+  check_clustering(s.grid, c);
+  for (std::size_t i = 0; i < c.label.size(); ++i) CHECK((c.label[i] == kNone) == false);
+  return c.clusters.size();
+}
+
+}  // namespace
+
+TEST_CASE("two pieces of a wall are one across a gap of 20 cm that nothing crosses") {
+  CHECK(bridged({}) == 1);
+  CHECK(bridged({.gap = 0.28}) == 1);
+}
+
+TEST_CASE("a wall that crosses in the gap keeps them two") {
+  CHECK(bridged({.crossing = true}) == 3);
+}
+
+TEST_CASE("what crosses but a small part of the gap does not") {
+  CHECK(bridged({.crossing = true, .crossing_height = 0.7}) == 2);
+  CHECK(bridged({.crossing = true, .crossing_height = 0.7}, {.open_share = 0.9}) == 3);
+}
+
+TEST_CASE("walls that are farther apart, or not in one plane, stay two") {
+  CHECK(bridged({.gap = 0.5}) == 2);
+  CHECK(bridged({.gap = 0.28}, {.max_gap = 4}) == 2);
+  CHECK(bridged({.step = 0.03}) == 2);
+  CHECK(bridged({.step = 0.03}, {.max_rms = 5}) == 1);
+}
+
+TEST_CASE("many pieces in a row become one") {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < 6; ++i)
+    add_rectangle(cloud, {0.7 * i, 0, 0}, {0.5, 0, 0}, {0, 0, 1}, 0.02, 0.004, random);
+  const Stages s = run_stages(std::move(cloud), known_scale(0.004, 0.02));
+  const auto piece = [](const Vec3& p) { return static_cast<std::int32_t>((p.x() + 0.1) / 0.7); };
+  const Clustering c = bridge_clusters(s.grid, s.scale, label_sites(s.grid, piece));
+  check_clustering(s.grid, c);
+  CHECK(c.clusters.size() == 1);
+}

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rival/evidence.h"
+
+#include <numbers>
+
+#include "support/stages.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+using namespace scanworld::rival;
+
+namespace {
+
+constexpr double kSpacing = 0.015, kPi = std::numbers::pi;
+
+PointCloud floor_points(double noise, Random& random) {
+  PointCloud cloud;
+  add_rectangle(cloud, {-1.5, -1.5, 0}, {3, 0, 0}, {0, 3, 0}, kSpacing, noise, random);
+  return cloud;
+}
+
+void add_sphere(PointCloud& cloud, const Vec3& center, double radius, double noise,
+                Random& random) {
+  const int count = static_cast<int>(4 * kPi * radius * radius / (kSpacing * kSpacing));
+  for (int i = 0; i < count; ++i)
+    cloud.points.push_back(
+        (center + (radius + noise * random.gauss()) * random.direction()).cast<float>());
+}
+
+// A column of 1.5 m on a floor.
+PointCloud column_points(double radius, double noise, Random& random) {
+  PointCloud cloud = floor_points(noise, random);
+  std::erase_if(cloud.points, [&](const Vec3f& p) { return p.head<2>().norm() < radius; });
+  const double height = 1.5;
+  const int count = static_cast<int>(2 * kPi * radius * height / (kSpacing * kSpacing));
+  for (int i = 0; i < count; ++i) {
+    const double angle = random.uniform(0, 2 * kPi), r = radius + noise * random.gauss();
+    cloud.points.push_back(
+        Vec3(r * std::cos(angle), r * std::sin(angle), random.uniform(0, height)).cast<float>());
+  }
+  return cloud;
+}
+
+void add_box(PointCloud& cloud, const Vec3& center, double edge, double noise, Random& random) {
+  const Mat3 turn = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (int axis = 0; axis < 3; ++axis)
+    for (double side : {-0.5, 0.5}) {
+      const Vec3 a = edge * turn.col((axis + 1) % 3), b = edge * turn.col((axis + 2) % 3);
+      add_rectangle(cloud, center + side * edge * turn.col(axis) - 0.5 * a - 0.5 * b, a, b,
+                    kSpacing, noise, random);
+    }
+}
+
+// What all stages find, without the floor.
+std::size_t found_beside_floor(PointCloud cloud, double noise) {
+  const Stages s = run_stages(std::move(cloud), known_scale(noise, kSpacing));
+  const Clustering c = s.confirm();
+  check_clustering(s.grid, c);
+  std::size_t floors = 0, others = 0;
+  for (const Cluster& k : c.clusters)
+    ++(std::abs(k.fit.plane.normal.z()) > 0.999 && std::abs(k.fit.centroid.z()) < noise ? floors
+                                                                                        : others);
+  CHECK(floors == 1);
+  return others;
+}
+
+// Weighs the sites of one plane as they are; tells whether they are kept.
+bool is_kept(const Stages& s, const EvidenceOptions& options = {}) {
+  const Clustering start = label_sites(s.grid, [](const Vec3&) { return 0; });
+  const Clustering c = weigh_evidence(s.grid, s.neighbors, s.scale, start, options);
+  const auto kept = std::count(c.label.begin(), c.label.end(), 0);
+  CHECK((kept == 0 || kept == static_cast<std::ptrdiff_t>(c.label.size())));
+  return kept > 0;
+}
+
+Stages plate(double width, double height, double spacing, double noise) {
+  PointCloud cloud;
+  Random random(7);
+  const PlaneFrame frame = frame_of({Vec3(1, 2, 3).normalized(), 0});
+  add_rectangle(cloud, frame.origin, width * frame.u, height * frame.v, spacing, noise, random);
+  return run_stages(std::move(cloud), known_scale(noise, spacing));
+}
+
+}  // namespace
+
+TEST_CASE("spheres have no planes") {
+  Random random(1);
+  for (double noise : {0.003, 0.01})
+    for (double radius : {0.15, 0.25, 0.35, 0.5}) {
+      CAPTURE(noise);
+      CAPTURE(radius);
+      PointCloud cloud = floor_points(noise, random);
+      add_sphere(cloud, {0, 0, radius + 0.3}, radius, noise, random);
+      CHECK(found_beside_floor(cloud, noise) == 0);
+    }
+}
+
+TEST_CASE("round columns, seen sharply for their width, have no planes") {
+  Random random(2);
+  for (const auto& [radius, noise] : {std::pair(0.15, 0.003), {0.15, 0.002}, {0.2, 0.002}}) {
+    CAPTURE(radius);
+    CHECK(found_beside_floor(column_points(radius, noise, random), noise) == 0);
+  }
+}
+
+TEST_CASE("wide round columns have no planes, nor those in more noise" * doctest::should_fail()) {
+  Random random(2);
+  for (double noise : {0.002, 0.003, 0.005, 0.01})
+    for (double radius : {0.15, 0.25, 0.35, 0.5}) {
+      CAPTURE(noise);
+      CAPTURE(radius);
+      CHECK(found_beside_floor(column_points(radius, noise, random), noise) == 0);
+    }
+}
+
+TEST_CASE("a box of 30 cm has its six faces") {
+  Random random(3);
+  for (double noise : {0.003, 0.006}) {
+    CAPTURE(noise);
+    PointCloud cloud = floor_points(noise, random);
+    add_box(cloud, {0, 0, 0.8}, 0.3, noise, random);
+    CHECK(found_beside_floor(cloud, noise) == 6);
+  }
+}
+
+TEST_CASE("plates are kept that have the points and the area") {
+  CHECK(is_kept(plate(0.4, 0.4, 0.02, 0.004)));
+  CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.004), {.min_points = 1000}));
+  CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.004), {.min_area = 0.5}));
+  CHECK_FALSE(is_kept(plate(0.1, 0.1, 0.01, 0.004)));
+  CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.03)));  // lost in the noise
+  CHECK(is_kept(plate(0.6, 0.6, 0.02, 0.03)));
+}
+
+TEST_CASE("a few points over a large area are no plane, where the scan is dense") {
+  Stages sparse = plate(2, 2, 0.2, 0.004);
+  CHECK(is_kept(sparse));
+  sparse.scale.spacing = 0.02;
+  CHECK_FALSE(is_kept(sparse));
+  CHECK(is_kept(sparse, {.sparse_points = 80}));
+}
+
+TEST_CASE("a layer in the noise of a larger cluster goes, one behind it stays") {
+  for (double height : {0.0, 0.05}) {
+    PointCloud cloud;
+    Random random(4);
+    add_rectangle(cloud, {0, 0, 0}, {3, 0, 0}, {0, 3, 0}, 0.02, 0.005, random);
+    if (height > 0) add_rectangle(cloud, {1, 1, height}, {1, 0, 0}, {0, 1, 0}, 0.02, 0.005, random);
+    RivalOptions options = known_scale(0.005, 0.02);
+    options.scale.voxel = 0.02;
+    const Stages s = run_stages(std::move(cloud), options, false);
+    const auto layer = [&](const Vec3& p) {
+      const bool inside = p.x() > 1 && p.x() < 2 && p.y() > 1 && p.y() < 2;
+      return inside && p.z() > (height > 0 ? height / 2 : 0.002) ? 1 : 0;
+    };
+    const Clustering c = weigh_evidence(s.grid, s.neighbors, s.scale, label_sites(s.grid, layer));
+    CHECK(std::count(c.label.begin(), c.label.end(), 0) > 5000);
+    CHECK((std::count(c.label.begin(), c.label.end(), 1) > 0) == (height > 0));
+  }
+}
+
+TEST_CASE("a small piece that goes on as something else is dropped, with those that then show") {
+  const Stages s = plate(1.2, 0.4, 0.02, 0.004);
+  const PlaneFrame frame = frame_of({Vec3(1, 2, 3).normalized(), 0});
+  // Three pieces in a row, the first of them among sites of no cluster.
+  const auto piece = [&](const Vec3& p) {
+    const double x = frame.to_plane(p).x();
+    return x < 0.3 ? kNone : std::min(static_cast<std::int32_t>((x - 0.3) / 0.3), 2);
+  };
+  const auto left = [&](const EvidenceOptions& options) {
+    const Clustering c =
+        weigh_evidence(s.grid, s.neighbors, s.scale, label_sites(s.grid, piece), options);
+    std::size_t clusters = 0;
+    for (std::int32_t l : {0, 1, 2}) clusters += std::count(c.label.begin(), c.label.end(), l) > 0;
+    return clusters;
+  };
+  // Pieces of one plane explain each other; here only what is around them counts.
+  EvidenceOptions options{.explained_share = 2, .surrounded = 0.1};
+  for (int rounds : {0, 1, 2, 3, 9}) {
+    options.surrounded_rounds = rounds;
+    CHECK(left(options) == static_cast<std::size_t>(std::max(0, 3 - rounds)));
+  }
+  options.surrounded_area = 0.01;
+  CHECK(left(options) == 3);
+}
+
+TEST_CASE("sites that are dropped are awake, the others as before") {
+  const Stages s = plate(0.4, 0.4, 0.02, 0.004);
+  Clustering start = label_sites(s.grid, [](const Vec3&) { return 0; });
+  std::fill(start.awake.begin(), start.awake.end(), 0);
+  const Clustering kept = weigh_evidence(s.grid, s.neighbors, s.scale, start);
+  CHECK(kept.awake == start.awake);
+  const Clustering gone = weigh_evidence(s.grid, s.neighbors, s.scale, start, {.min_points = 1e6});
+  CHECK(std::count(gone.awake.begin(), gone.awake.end(), 0) == 0);
+}
