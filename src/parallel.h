@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace scanworld {
 
@@ -25,6 +27,21 @@ inline std::size_t part_count(std::size_t count, std::size_t size) {
 }
 inline Part part_of(std::size_t i, std::size_t count, std::size_t size) {
   return {i * size, (i + 1) * size < count ? (i + 1) * size : count};
+}
+
+// Sorts numbers: parts of them by several threads, which are then merged two by two.
+template <typename T>
+void parallel_sort(std::vector<T>& items) {
+  constexpr std::size_t kPart = 1 << 15;
+  const auto at = [&](std::size_t i) {
+    return items.begin() + static_cast<std::ptrdiff_t>(std::min(i, items.size()));
+  };
+  parallel_for(part_count(items.size(), kPart),
+               [&](std::size_t i) { std::sort(at(i * kPart), at((i + 1) * kPart)); });
+  for (std::size_t size = kPart; size < items.size(); size *= 2)
+    parallel_for(part_count(items.size(), 2 * size), [&](std::size_t i) {
+      std::inplace_merge(at(2 * i * size), at((2 * i + 1) * size), at((2 * i + 2) * size));
+    });
 }
 
 // Lets at most `threads` threads work (0 = all) while it lives.

@@ -43,3 +43,14 @@ TEST_CASE("parts cover a range without gap or overlap") {
     CHECK(next == count);
   }
 }
+
+TEST_CASE("numbers sorted by several threads are those that one sorts") {
+  for (std::size_t count : {0u, 1u, 1000u, 32768u, 32769u, 200001u}) {
+    std::vector<std::uint64_t> items(count);
+    for (std::size_t i = 0; i < count; ++i) items[i] = (i * 2654435761u) % 65537;
+    std::vector<std::uint64_t> expected = items;
+    std::sort(expected.begin(), expected.end());
+    parallel_sort(items);
+    CHECK(items == expected);
+  }
+}

@@ -22,8 +22,9 @@ struct Clustering {
   std::vector<std::int32_t> label;
   std::vector<Cluster> clusters;
   // Of each site, as of when it last competed: whether a cluster other than its own is among its
-  // neighbours; and whether any site that has it among its own neighbours has changed since. Where the
-  // density changes, a site may have neighbours of which it is none; their changes it does not see.
+  // neighbours; and whether any site that has it among its own neighbours has changed since. Where
+  // the density changes, a site may have neighbours of which it is none; their changes it does not
+  // see.
   std::vector<std::uint8_t> border, awake;
 
   bool may_border(std::size_t site) const { return border[site] || awake[site]; }

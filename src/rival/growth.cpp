@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "../parallel.h"
+
 namespace scanworld::rival {
 
 Clustering grow_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
@@ -18,7 +20,7 @@ Clustering grow_clusters(const Grid& grid, const Neighbors& neighbors, const Sca
   for (std::size_t i = 0; i < grid.sites.size(); ++i)
     if (c.label[i] == kNone && local[i].planar())
       seeds.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(local[i].rank)} << 32 | i);
-  std::sort(seeds.begin(), seeds.end());
+  parallel_sort(seeds);
 
   const double many = options.max_rms * options.max_rms;
   const double one = options.max_distance * options.max_distance - many;

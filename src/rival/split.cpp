@@ -12,6 +12,7 @@ namespace scanworld::rival {
 
 namespace {
 
+constexpr std::size_t kPart = 1 << 12;
 constexpr double kMaxCosine = 0.7;  // between the normals of planes that cross (45 degrees)
 
 }  // namespace
@@ -26,9 +27,16 @@ Clustering split_clusters(const Grid& grid, const Neighbors& neighbors, Clusteri
     return i;
   };
   std::vector<char> near_border(count);
-  for (std::size_t i = 0; i < count; ++i)
-    if (c.label[i] != kNone && c.may_border(i))
-      for (std::uint32_t j : neighbors.of(i)) near_border[j] = 1;
+  parallel_for(part_count(count, kPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, count, kPart);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto around = neighbors.of(i);
+      near_border[i] =
+          c.label[i] != kNone && std::any_of(around.begin(), around.end(), [&](std::uint32_t j) {
+            return c.label[j] != kNone && c.may_border(j);
+          });
+    }
+  });
   // The clusters at an angle to that of site i which are around it.
   std::vector<std::int32_t> crossing;
   const auto find_crossing = [&](std::size_t i) {

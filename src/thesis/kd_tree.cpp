@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "../parallel.h"
+
 namespace scanworld::thesis {
 
 KdTree::KdTree(std::vector<Vec3> points) : points_(std::move(points)), nodes_(points_.size()) {
@@ -24,6 +26,10 @@ void KdTree::build(Subtree tree) {
   };
   const auto at = [&](std::size_t i) { return nodes_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(tree.begin), at(tree.root()), at(tree.end), before);
+  constexpr std::size_t kLarge = 1 << 14;  // nodes that are worth another thread
+  if (tree.end - tree.begin > kLarge)
+    return parallel_for(2,
+                        [&](std::size_t side) { build(side == 0 ? tree.left() : tree.right()); });
   build(tree.left());
   build(tree.right());
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "polygons.h"
 
+#include "../parallel.h"
 #include "hull.h"
 
 namespace scanworld::thesis {
@@ -17,9 +18,10 @@ std::vector<std::vector<Vec3>> fit_to_planes(const std::vector<Vec3>& points,
 
 std::vector<Polygon> find_borders(const std::vector<std::vector<Vec3>>& points,
                                   const std::vector<Cluster>& clusters) {
-  std::vector<Polygon> borders;
-  for (std::size_t c = 0; c < clusters.size(); ++c)
-    borders.push_back(convex_hull(points[c], clusters[c].fit.plane.normal));
+  std::vector<Polygon> borders(clusters.size());
+  parallel_for(clusters.size(), [&](std::size_t c) {
+    borders[c] = convex_hull(points[c], clusters[c].fit.plane.normal);
+  });
   return borders;
 }
 

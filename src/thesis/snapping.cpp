@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "../parallel.h"
 #include "hull.h"
 
 namespace scanworld::thesis {
@@ -130,11 +131,11 @@ std::vector<Polygon> snap_vertices(const std::vector<Polygon>& polygons,
                                    double delta, const SnappingOptions& options) {
   const Snapper snapper(clusters, tree, delta, options);
   std::vector<Polygon> snapped = polygons;
-  for (std::size_t i = 0; i < snapped.size(); ++i) {
+  parallel_for(snapped.size(), [&](std::size_t i) {
     for (Vec3& vertex : snapped[i]) vertex = snapper.snap(vertex, static_cast<int>(i));
     const Polygon hull = convex_hull(snapped[i], clusters[i].fit.plane.normal);
     snapped[i] = hull.size() < 3 ? polygons[i] : hull;  // snapped onto one line: better as it was
-  }
+  });
   return snapped;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "../parallel.h"
 #include "hull.h"
 
 namespace scanworld::thesis {
@@ -24,19 +25,32 @@ struct Sums {
 
 std::vector<Sums> add_up(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
                          const std::vector<Cluster>& clusters) {
-  std::vector<Sums> sums(clusters.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] < 0) continue;
-    const std::size_t c = static_cast<std::size_t>(labels[i]);
-    const double off = clusters[c].fit.plane.signed_distance(cloud.points[i].cast<double>());
-    const auto um = static_cast<std::uint64_t>(std::llround(std::abs(off) * 1e6));
-    ++sums[c].points;
-    sums[c].square_um += um * um;
-    if (cloud.colors.empty()) continue;
-    const Color& color = cloud.colors[i];
-    sums[c].color[0] += color.r, sums[c].color[1] += color.g, sums[c].color[2] += color.b;
-  }
-  return sums;
+  constexpr std::size_t kPart = 1 << 20;
+  std::vector<std::vector<Sums>> parts(part_count(labels.size(), kPart),
+                                       std::vector<Sums>(clusters.size()));
+  parallel_for(parts.size(), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, labels.size(), kPart);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (labels[i] < 0) continue;
+      const std::size_t c = static_cast<std::size_t>(labels[i]);
+      const double off = clusters[c].fit.plane.signed_distance(cloud.points[i].cast<double>());
+      const auto um = static_cast<std::uint64_t>(std::abs(off) * 1e6 + 0.5);
+      Sums& sums = parts[part][c];
+      ++sums.points;
+      sums.square_um += um * um;
+      if (cloud.colors.empty()) continue;
+      const Color& color = cloud.colors[i];
+      sums.color[0] += color.r, sums.color[1] += color.g, sums.color[2] += color.b;
+    }
+  });
+  std::vector<Sums> all(clusters.size());
+  for (const std::vector<Sums>& part : parts)
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      all[c].points += part[c].points;
+      all[c].square_um += part[c].square_um;
+      for (std::size_t k = 0; k < 3; ++k) all[c].color[k] += part[c].color[k];
+    }
+  return all;
 }
 
 Vec3 middle_of(const Polygon& polygon) {
@@ -109,8 +123,8 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
                                          const std::vector<Cluster>& clusters,
                                          const std::vector<Polygon>& polygons) {
   const std::vector<Sums> sums = add_up(cloud, labels, clusters);
-  std::vector<FoundSurface> walls;
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
+  std::vector<FoundSurface> walls(clusters.size());
+  parallel_for(clusters.size(), [&](std::size_t c) {
     FoundSurface wall{.plane = clusters[c].fit.plane, .outer = polygons[c]};
     if (polygons[c].size() >= 3) {
       wall.support.coverage = coverage(clusters[c], polygons[c], points, delta);
@@ -128,8 +142,8 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
       };
       if (!cloud.colors.empty()) wall.color = Color{mean(0), mean(1), mean(2)};
     }
-    walls.push_back(std::move(wall));
-  }
+    walls[c] = std::move(wall);
+  });
   return walls;
 }
 
