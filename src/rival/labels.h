@@ -10,7 +10,7 @@ namespace scanworld::rival {
 
 struct LabelOptions {
   double max_distance = 3;  // [noise] points farther from a plane are not in it
-  double max_own = 4;       // [noise of the plane] nor points farther than this
+  double max_own = 3;       // [noise of the plane] nor points farther than this
   double min_noise = 0.25;  // [noise] a plane's own noise is at least this
   double smoothness = 3;    // price of a point among other clusters' sites, in squared noise
   int min_points = 50;      // planes with fewer points in the end are dropped
