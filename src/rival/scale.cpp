@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "../mix.h"
 #include "../parallel.h"
 #include "moments.h"
 
@@ -29,12 +30,6 @@ struct Sample {
   std::uint64_t cell;
   std::uint32_t point;
 };
-
-std::uint64_t mix(std::uint64_t x) {  // splitmix64, S. Vigna
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 // Where cells of this size begin, in their edges: elsewhere for each size, so that no plane is at
 // the border of cells of all sizes.

@@ -9,6 +9,7 @@
 
 #include "../error.h"
 #include "../files.h"
+#include "../mix.h"
 #include "../parallel.h"
 #include "assemble_cloud.h"
 #include "camera_frame.h"
@@ -19,17 +20,6 @@
 #include "xyz.h"
 
 namespace scanworld {
-
-namespace {
-
-// The finalizer of SplitMix64 (Steele, Lea, Flood 2014): spreads every bit over all.
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
-  x = (x ^ x >> 27) * 0x94d049bb133111eb;
-  return x ^ x >> 31;
-}
-
-}  // namespace
 
 std::string scan_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "../error.h"
+#include "../mix.h"
 #include "../parallel.h"
 #include "ray_scene.h"
 
@@ -30,12 +31,7 @@ class Random {
                item * 0x8cb92ba72f3d8dd7) {
     next();
   }
-  std::uint64_t next() {
-    std::uint64_t x = state_ += 0x9e3779b97f4a7c15;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
-    x = (x ^ x >> 27) * 0x94d049bb133111eb;
-    return x ^ x >> 31;
-  }
+  std::uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15); }
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }  // [0, 1)
   double gauss() {                                                          // Box and Muller, 1958
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
