@@ -49,12 +49,7 @@ void apply_config(ReconstructOptions& options, const std::filesystem::path& file
 
 void apply_assignments(ReconstructOptions& options, const std::vector<std::string>& assignments) {
   const OptionList list = list_options(options);
-  for (const std::string& text : assignments) {
-    const std::size_t at = text.find('=');
-    if (at == std::string::npos)
-      throw Error(Cause::usage, fmt::format("--set {}: should be key=value", text));
-    set_option(list, text.substr(0, at), text.substr(at + 1));
-  }
+  for (const std::string& assignment : assignments) assign_option(list, assignment);
 }
 
 std::string options_table() {

@@ -58,12 +58,8 @@ void add_options(CLI::App& app, Request& request) {
 void resolve_options(Request& request) {
   ReconstructOptions& options = request.options.reconstruct;
   options.method = method_named(request.method);
-  for (const std::string& text : request.assignments) {
-    const std::size_t at = text.find('=');
-    if (at == std::string::npos)
-      throw Error(Cause::usage, fmt::format("--set {}: should be key=value", text));
-    set_option(list_options(options), text.substr(0, at), text.substr(at + 1));
-  }
+  for (const std::string& assignment : request.assignments)
+    assign_option(list_options(options), assignment);
   if (request.inputs.empty())
     for (const char* name : {"room.json", "office.json", "stairs.json"})
       request.inputs.push_back(std::filesystem::path(SCANWORLD_SOURCE_DIR) / "worlds" / name);

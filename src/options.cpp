@@ -81,6 +81,13 @@ void set_option(const OptionList& options, const std::string& name, const std::s
     **std::get_if<double*>(&option->field) = value;
 }
 
+void assign_option(const OptionList& options, const std::string& assignment) {
+  const std::size_t at = assignment.find('=');
+  if (at == std::string::npos)
+    throw Error(Cause::usage, fmt::format("--set {}: should be key=value", assignment));
+  set_option(options, assignment.substr(0, at), assignment.substr(at + 1));
+}
+
 std::string text_of(const OptionValue& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }

@@ -30,6 +30,9 @@ using OptionList = std::vector<Option>;
 // this name (and which ones are alike), or where the value is no number or out of range.
 void set_option(const OptionList& options, const std::string& name, const std::string& value);
 
+// The same from "name=value"; throws usage too where there is no '='.
+void assign_option(const OptionList& options, const std::string& assignment);
+
 std::string text_of(const OptionValue& value);
 
 }  // namespace scanworld
