@@ -40,6 +40,14 @@ std::vector<Moments> sum_moments(const Grid& grid, const Clustering& c) {
 
 }  // namespace
 
+std::vector<std::vector<std::uint32_t>> members_of(const Clustering& c) {
+  std::vector<std::vector<std::uint32_t>> members(c.clusters.size());
+  for (std::size_t i = 0; i < c.label.size(); ++i)
+    if (c.label[i] != kNone)
+      members[static_cast<std::size_t>(c.label[i])].push_back(static_cast<std::uint32_t>(i));
+  return members;
+}
+
 void refit(const Grid& grid, Clustering& c) {
   const std::vector<Moments> sums = sum_moments(grid, c);
   std::vector<std::int32_t> to(c.clusters.size(), kNone);

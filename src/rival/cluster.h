@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,11 +33,30 @@ struct Clustering {
   const Plane& plane(std::int32_t l) const {
     return clusters[static_cast<std::size_t>(l)].fit.plane;
   }
+  // Gives a site another label, and wakes it where it is another.
+  void relabel(std::size_t site, std::int32_t l) {
+    if (label[site] != l) label[site] = l, awake[site] = 1;
+  }
 };
 
 inline std::size_t count_of(const Clustering& c) { return c.clusters.size(); }
 
 constexpr double kMinPoints = 12;  // that a cluster needs for its plane to mean something
+
+// The standard deviation of a cluster's points off its plane, or `least` [m] where that is more.
+inline double noise_of(const Cluster& cluster, double least) {
+  return std::max(std::sqrt(cluster.fit.variance[0]), least);
+}
+
+// Adds a label to a list that does not have it yet; tells whether it was new.
+inline bool add_new(std::vector<std::int32_t>& labels, std::int32_t l) {
+  if (std::find(labels.begin(), labels.end(), l) != labels.end()) return false;
+  labels.push_back(l);
+  return true;
+}
+
+// The sites of each cluster, ascending.
+std::vector<std::vector<std::uint32_t>> members_of(const Clustering& clustering);
 
 // Fits all clusters to their sites and drops those with fewer than kMinPoints points.
 void refit(const Grid& grid, Clustering& clustering);

@@ -23,8 +23,7 @@ std::vector<Contact> find_contacts(const Grid& grid, const Neighbors& neighbors,
       others.clear();
       for (std::uint32_t j : neighbors.of(i)) {
         const std::int32_t b = c.label[j];
-        if (b != a && b != kNone && std::find(others.begin(), others.end(), b) == others.end())
-          others.push_back(b);
+        if (b != a && b != kNone) add_new(others, b);
       }
       for (std::int32_t b : others) {
         auto at = std::find_if(list.begin(), list.end(),

@@ -112,9 +112,8 @@ std::vector<double> count_around(const Grid& grid, const Neighbors& neighbors,
     seen.clear();
     for (std::uint32_t j : neighbors.of(i)) {
       const std::int32_t l = c.label[j];
-      if (l == kNone || std::find(seen.begin(), seen.end(), l) != seen.end()) continue;
-      seen.push_back(l);
-      around[static_cast<std::size_t>(l)] += grid.sites[i].points;
+      if (l != kNone && add_new(seen, l))
+        around[static_cast<std::size_t>(l)] += grid.sites[i].points;
     }
   }
   return around;
@@ -125,7 +124,7 @@ bool drop_clusters(const std::vector<char>& marked, Clustering& c) {
   bool any = false;
   for (std::size_t i = 0; i < c.label.size(); ++i)
     if (c.label[i] != kNone && marked[static_cast<std::size_t>(c.label[i])])
-      c.label[i] = kNone, c.awake[i] = 1, any = true;
+      c.relabel(i, kNone), any = true;
   return any;
 }
 
@@ -133,10 +132,7 @@ bool drop_clusters(const std::vector<char>& marked, Clustering& c) {
 
 Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                           Clustering c, const EvidenceOptions& options) {
-  std::vector<std::vector<std::uint32_t>> members(c.clusters.size());
-  for (std::size_t i = 0; i < c.label.size(); ++i)
-    if (c.label[i] != kNone)
-      members[static_cast<std::size_t>(c.label[i])].push_back(static_cast<std::uint32_t>(i));
+  const std::vector<std::vector<std::uint32_t>> members = members_of(c);
   std::vector<char> drop(c.clusters.size());
   const std::vector<double> explained = count_explained(grid, neighbors, scale, c, options);
   parallel_for(c.clusters.size(), [&](std::size_t k) {

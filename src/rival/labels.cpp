@@ -21,11 +21,6 @@ struct Candidate {
   double price = 0;  // for being among others, in squared noise
 };
 
-// The standard deviation of a cluster's points off its plane.
-double noise_of(const Cluster& cluster, const Scale& scale, const LabelOptions& options) {
-  return std::max(std::sqrt(cluster.fit.variance[0]), options.min_noise * scale.noise);
-}
-
 // The clusters of the sites around one, its own counting three times.
 void find_candidates(std::size_t i, const Neighbors& neighbors, const Clustering& c,
                      double smoothness, std::vector<Candidate>& near) {
@@ -53,9 +48,11 @@ void find_candidates(std::size_t i, const Neighbors& neighbors, const Clustering
 
 LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
                             const Scale& scale, const Clustering& c, const LabelOptions& options) {
-  std::vector<double> own_square;  // [m2] how far off its cluster a point may be
-  for (const Cluster& cluster : c.clusters)
-    own_square.push_back(std::pow(options.max_own * noise_of(cluster, scale, options), 2));
+  std::vector<double> noise, own_square;  // [m2] how far off its cluster a point may be
+  for (const Cluster& cluster : c.clusters) {
+    noise.push_back(noise_of(cluster, options.min_noise * scale.noise));
+    own_square.push_back(std::pow(options.max_own * noise.back(), 2));
+  }
   const double max_square = options.max_distance * options.max_distance;
 
   LabelledPoints result;
@@ -93,10 +90,10 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
   result.plane_of.assign(c.clusters.size(), kNone);
   for (std::size_t k = 0; k < c.clusters.size(); ++k) {
     std::size_t points = 0;
-    for (const auto& count : counts) points += count.empty() ? 0 : count[k];
+    for (const auto& count : counts) points += count[k];
     if (points < static_cast<std::size_t>(options.min_points)) continue;
     result.plane_of[k] = static_cast<std::int32_t>(result.planes.size());
-    result.planes.push_back({c.clusters[k].fit, noise_of(c.clusters[k], scale, options)});
+    result.planes.push_back({c.clusters[k].fit, noise[k]});
   }
   parallel_for(part_count(labels.size(), kPart), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, labels.size(), kPart);

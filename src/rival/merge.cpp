@@ -7,73 +7,75 @@
 #include <tuple>
 
 #include "contacts.h"
+#include "crossing.h"
+#include "join.h"
 
 namespace scanworld::rival {
 
-Clustering merge_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                          Clustering c, const MergeOptions& options) {
-  const std::vector<Contact> contacts = find_contacts(grid, neighbors, c);
-  const auto limit = [&](const Cluster& p, const Cluster& q) {
-    return std::pow(
-        options.max_rms * std::max(scale.noise_at(p.fit.centroid), scale.noise_at(q.fit.centroid)),
-        2);
-  };
-  std::vector<std::int32_t> to(c.clusters.size());
-  for (std::size_t k = 0; k < to.size(); ++k) to[k] = static_cast<std::int32_t>(k);
-  const auto find = [&](std::int32_t k) {
-    while (to[static_cast<std::size_t>(k)] != k) k = to[static_cast<std::size_t>(k)];
-    return k;
-  };
-  const auto at = [&](std::int32_t k) -> Cluster& {
+namespace {
+
+constexpr double kNever = 1e9;     // a price
+constexpr double kParallel = 0.9;  // cosine between the normals of layers
+constexpr double kMostOfIt = 0.5;  // share of a layer that touches the cluster it belongs to
+
+// What speaks for joining two clusters: the lower the price, the more; 1 or more is too much.
+struct Bid {
+  double price;
+  std::int32_t a, b;
+  bool layer;
+
+  bool operator<(const Bid& o) const { return std::tie(price, a, b) < std::tie(o.price, o.a, o.b); }
+};
+
+// For a smaller cluster that lies in the noise of a larger one, where both are: `there` are the
+// sites of the larger that touch it, `here` its own that touch the larger.
+double layer_price(const Cluster& larger, const Contact& there, const Cluster& smaller,
+                   const Contact& here, const Scale& scale, const MergeOptions& options) {
+  if (larger.moments.n < smaller.moments.n || here.moments.n < kMostOfIt * smaller.moments.n ||
+      std::abs(larger.fit.plane.normal.dot(smaller.fit.plane.normal)) < kParallel)
+    return kNever;
+  return (there.moments + smaller.moments).mean_square(larger.fit.plane) /
+         square_limit(larger, smaller, scale, options.max_rms);
+}
+
+double plane_price(const Cluster& a, const Cluster& b, const Scale& scale,
+                   const MergeOptions& options) {
+  return is_across(a.fit.plane, b.fit.plane) ? kNever : joint_price(a, b, scale, options.max_rms);
+}
+
+std::vector<Bid> find_bids(const Clustering& c, const std::vector<Contact>& contacts,
+                           const Scale& scale, const MergeOptions& options) {
+  const auto at = [&](std::int32_t k) -> const Cluster& {
     return c.clusters[static_cast<std::size_t>(k)];
   };
-  // The larger of the two parts' mean squares about the plane in common, over the limit.
-  const auto price_of = [&](std::int32_t a, std::int32_t b) {
-    const Cluster &p = at(a), &q = at(b);
-    if (std::abs(p.fit.plane.normal.dot(q.fit.plane.normal)) < 0.7) return 1e9;
-    const MomentFit joint = fit(p.moments + q.moments);
-    return std::max(p.moments.mean_square(joint.plane), q.moments.mean_square(joint.plane)) /
-           limit(p, q);
-  };
-  // Layers: b lies in a's noise, where both are.
-  const auto layer_price = [&](const Contact& b_at_a, const Contact& a_at_b) {
-    const Cluster &p = at(a_at_b.a), &q = at(b_at_a.a);
-    if (p.moments.n < q.moments.n || b_at_a.moments.n < 0.5 * q.moments.n ||
-        std::abs(p.fit.plane.normal.dot(q.fit.plane.normal)) < 0.9)
-      return 1e9;
-    return (a_at_b.moments + q.moments).mean_square(p.fit.plane) / limit(p, q);
-  };
-  struct Bid {
-    double price;
-    std::int32_t a, b;
-    bool layer;
-  };
   std::vector<Bid> bids;
+  const auto offer = [&](const Bid& bid) {
+    if (bid.price < 1) bids.push_back(bid);
+  };
   for (const Contact& k : contacts) {
-    if (k.a < k.b)
-      if (const double price = price_of(k.a, k.b); price < 1)
-        bids.push_back({price, k.a, k.b, false});
+    if (k.a < k.b) offer({plane_price(at(k.a), at(k.b), scale, options), k.a, k.b, false});
     const auto back = std::lower_bound(contacts.begin(), contacts.end(), Contact{k.b, k.a, {}});
     if (back == contacts.end() || back->a != k.b || back->b != k.a) continue;
-    if (const double price = layer_price(k, *back); price < 1)
-      bids.push_back({price, k.b, k.a, true});
+    offer({layer_price(at(k.b), *back, at(k.a), k, scale, options), k.b, k.a, true});
   }
-  std::sort(bids.begin(), bids.end(), [](const Bid& x, const Bid& y) {
-    return std::tie(x.price, x.a, x.b) < std::tie(y.price, y.a, y.b);
-  });
+  std::sort(bids.begin(), bids.end());
+  return bids;
+}
+
+}  // namespace
+
+Clustering merge_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                          Clustering c, const MergeOptions& options) {
+  const std::vector<Bid> bids = find_bids(c, find_contacts(grid, neighbors, c), scale, options);
+  Joiner joiner(std::move(c));
   for (const Bid& bid : bids) {
-    std::int32_t a = find(bid.a), b = find(bid.b);
-    if (a == b || (!bid.layer && price_of(a, b) >= 1)) continue;
-    if (a > b) std::swap(a, b);
-    at(a).moments += at(b).moments;
-    at(a).fit = fit(at(a).moments);
-    to[static_cast<std::size_t>(b)] = a;
+    const auto a = static_cast<std::size_t>(bid.a), b = static_cast<std::size_t>(bid.b);
+    if (joiner.find(a) == joiner.find(b)) continue;
+    // A plane in common must serve what the two have become since.
+    if (bid.layer || plane_price(joiner.whole(a), joiner.whole(b), scale, options) < 1)
+      joiner.join(a, b);
   }
-  for (std::size_t i = 0; i < c.label.size(); ++i)
-    if (c.label[i] != kNone && to[static_cast<std::size_t>(c.label[i])] != c.label[i])
-      c.label[i] = find(c.label[i]), c.awake[i] = 1;
-  refit(grid, c);
-  return c;
+  return joiner.finish(grid);
 }
 
 }  // namespace scanworld::rival

@@ -11,7 +11,8 @@ namespace scanworld::rival {
 namespace {
 
 double noise_of(const Cluster& cluster, const Scale& scale) {
-  return std::max(std::sqrt(cluster.fit.variance[0]), 0.25 * scale.noise_at(cluster.fit.centroid));
+  constexpr double kLeast = 0.25;  // [noise]
+  return noise_of(cluster, kLeast * scale.noise_at(cluster.fit.centroid));
 }
 
 // Whether a cluster may have this normal: its points lie hardly worse.

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "join.h"
+
+#include <cmath>
+
+namespace scanworld::rival {
+
+double square_limit(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms) {
+  const double noise = std::max(scale.noise_at(a.fit.centroid), scale.noise_at(b.fit.centroid));
+  return std::pow(max_rms * noise, 2);
+}
+
+double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms) {
+  const Plane plane = fit(a.moments + b.moments).plane;
+  return std::max(a.moments.mean_square(plane), b.moments.mean_square(plane)) /
+         square_limit(a, b, scale, max_rms);
+}
+
+void Joiner::join(std::size_t a, std::size_t b) {
+  const std::uint32_t low = std::min(find(a), find(b)), high = std::max(find(a), find(b));
+  Cluster& whole = c_.clusters[low];
+  whole.moments += c_.clusters[high].moments;
+  whole.fit = fit(whole.moments);
+  sets_.unite(low, high);
+}
+
+Clustering Joiner::finish(const Grid& grid) {
+  for (std::size_t i = 0; i < c_.label.size(); ++i)
+    if (c_.label[i] != kNone)
+      c_.relabel(i, static_cast<std::int32_t>(find(static_cast<std::size_t>(c_.label[i]))));
+  refit(grid, c_);
+  return std::move(c_);
+}
+
+}  // namespace scanworld::rival
