@@ -30,6 +30,13 @@ struct Block {
   std::array<std::uint64_t, 8> occupied{};  // bit y << 3 | x of word z
   std::array<std::uint32_t, 8> first{};     // the site of the first occupied voxel of each word
   std::array<std::int32_t, 27> near{};      // blocks around this one, x fastest; -1 = no points
+
+  // The site of an occupied voxel.
+  std::uint32_t site_at(int z, int bit) const {
+    const auto layer = static_cast<std::size_t>(z);
+    const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
+    return first[layer] + static_cast<std::uint32_t>(std::popcount(occupied[layer] & below));
+  }
 };
 
 // A scan divided into voxels, those with points only. Sites are in the order of their voxels, which
@@ -65,15 +72,18 @@ Grid build_grid(const PointCloud& cloud, double voxel);
 // points are on both, the fewer become a new site.
 void part_site(const PointCloud& cloud, std::uint32_t site, const Plane& between, Grid& grid);
 
-// The bits y << 3 | x of a word with |x - at_x| and |y - at_y| up to `reach`, where any are.
-inline std::uint64_t square_mask(int at_x, int at_y, int reach) {
-  const int x0 = std::max(at_x - reach, 0), x1 = std::min(at_x + reach, 7);
-  const int y0 = std::max(at_y - reach, 0), y1 = std::min(at_y + reach, 7);
+// The bits y << 3 | x of a word with x and y in these ranges, where any are.
+inline std::uint64_t rectangle_mask(int x0, int x1, int y0, int y1) {
+  x0 = std::max(x0, 0), x1 = std::min(x1, 7), y0 = std::max(y0, 0), y1 = std::min(y1, 7);
   if (x0 > x1 || y0 > y1) return 0;
   constexpr std::uint64_t kEachRow = 0x0101010101010101u;
   const std::uint64_t row = (std::uint64_t{0xff} >> (7 - x1 + x0)) << x0;
   const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - y1 + y0))) << (8 * y0);
   return kEachRow * row & rows;
+}
+// Those no more than `reach` from a place along x and y.
+inline std::uint64_t square_mask(int at_x, int at_y, int reach) {
+  return rectangle_mask(at_x - reach, at_x + reach, at_y - reach, at_y + reach);
 }
 
 template <typename Body>
@@ -97,9 +107,7 @@ void Grid::for_each_near(std::size_t site, int reach, Body body, int inner) cons
         while (bits != 0) {
           const int bit = std::countr_zero(bits);
           bits &= bits - 1;
-          const std::uint32_t at =
-              block.first[static_cast<std::size_t>(zz & 7)] +
-              static_cast<std::uint32_t>(std::popcount(word & ((std::uint64_t{1} << bit) - 1)));
+          const std::uint32_t at = block.site_at(zz & 7, bit);
           body(at);
           if (!twin.empty() && twin[at] >= 0) body(static_cast<std::uint32_t>(twin[at]));
         }

@@ -19,7 +19,7 @@ struct NeighborOptions {
 // The sites around each site, itself included: a cube of voxels that is larger where points are
 // sparse, so that what is looked at follows the density of the scan.
 struct Neighbors {
-  static constexpr std::size_t kPart = 1 << 12;  // sites are kept in parts of so many
+  static constexpr std::size_t kPart = 1 << 9;  // sites are kept in parts of so many
 
   struct Part {
     std::vector<std::uint32_t> first;  // for each site its first entry in `sites`; one more at the
