@@ -10,67 +10,126 @@
 
 namespace scanworld::rival {
 
+namespace {
+
+constexpr double kFirstFit = 40, kNextFit = 1.3;  // points with which a plane is fitted anew, and
+                                                  // how many times as many for the next time
+
+class Grower {
+ public:
+  Grower(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+         const std::vector<LocalPlane>& local, Clustering c, const GrowthOptions& options)
+      : grid_(grid),
+        neighbors_(neighbors),
+        scale_(scale),
+        local_(local),
+        options_(options),
+        many_(options.max_rms * options.max_rms),
+        one_(options.max_distance * options.max_distance - many_),
+        cos_angle_(static_cast<float>(std::cos(options.max_angle))),
+        all_awake_(c.awake.empty()),
+        c_(std::move(c)) {
+    c_.label.resize(grid.sites.size(), kNone);
+    c_.awake.resize(grid.sites.size(), 1);
+    c_.border.resize(grid.sites.size(), 1);
+  }
+
+  // The free sites that clusters may grow from, the flattest first.
+  std::vector<std::uint32_t> find_seeds() const {
+    std::vector<std::uint64_t> keys;  // rank << 32 | site; as bits, positive floats are in order
+    for (std::size_t i = 0; i < local_.size(); ++i)
+      if (c_.label[i] == kNone && local_[i].planar())
+        keys.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(local_[i].rank)} << 32 | i);
+    parallel_sort(keys);
+    return {keys.begin(), keys.end()};  // the lower half of each
+  }
+
+  // Adds the cluster that grows from this site, if it is free still and enough comes together.
+  void grow(std::uint32_t seed) {
+    if (c_.label[seed] != kNone) return;
+    start(seed);
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      if (k > 0 && !spreads(members_[k])) continue;
+      for (std::uint32_t j : neighbors_.of(members_[k]))
+        if (c_.label[j] == kNone && fits(j)) take(j);
+      if (cluster_.moments.n >= fit_at_) {
+        fit_plane();
+        fit_at_ = cluster_.moments.n * kNextFit;
+      }
+    }
+    if (cluster_.moments.n < options_.min_points) {
+      for (std::uint32_t i : members_) c_.label[i] = kNone;
+      return;
+    }
+    fit_plane();
+    c_.clusters.push_back(cluster_);
+    if (all_awake_) return;
+    for (std::uint32_t i : members_)
+      for (std::uint32_t j : neighbors_.of(i)) c_.awake[j] = 1;
+  }
+
+  Clustering take_result() { return std::move(c_); }
+
+ private:
+  // With the plane of the free sites around the seed.
+  void start(std::uint32_t seed) {
+    cluster_ = {};
+    for (std::uint32_t j : neighbors_.of(seed))
+      if (c_.label[j] == kNone) cluster_.moments += grid_.sites[j].moments();
+    fit_plane();
+    fit_at_ = kFirstFit;
+    cluster_.moments = {};
+    members_.clear();
+    take(seed);
+  }
+  void take(std::uint32_t i) {
+    c_.label[i] = static_cast<std::int32_t>(c_.clusters.size());
+    members_.push_back(i);
+    cluster_.moments += grid_.sites[i].moments();
+  }
+  void fit_plane() {
+    cluster_.fit = fit(cluster_.moments);
+    normal_ = cluster_.fit.plane.normal.cast<float>();
+  }
+
+  // Whether more may be taken from around a site.
+  bool spreads(std::uint32_t i) const {
+    return local_[i].planar() && std::abs(local_[i].normal.dot(normal_)) > cos_angle_;
+  }
+  bool fits(std::uint32_t j) const {
+    const Site& s = grid_.sites[j];
+    const Plane& plane = cluster_.fit.plane;
+    const double d = plane.signed_distance(s.position());
+    const double variance = scale_.variance_at(s.position());
+    if (d * d > (many_ + one_) * variance) return false;
+    if (d * d + s.variance(plane.normal) > (many_ + one_ / s.points) * variance) return false;
+    return !local_[j].planar() || std::abs(local_[j].normal.dot(normal_)) >= cos_angle_;
+  }
+
+  const Grid& grid_;
+  const Neighbors& neighbors_;
+  const Scale& scale_;
+  const std::vector<LocalPlane>& local_;
+  const GrowthOptions& options_;
+  const double many_, one_;  // squares, in noise, for a site with many points, and more for one
+  const float cos_angle_;
+  const bool all_awake_;
+  Clustering c_;
+  // Of the cluster that grows.
+  Cluster cluster_;
+  Vec3f normal_ = Vec3f::UnitZ();
+  double fit_at_ = 0;
+  std::vector<std::uint32_t> members_;
+};
+
+}  // namespace
+
 Clustering grow_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                          const std::vector<LocalPlane>& local, Clustering c,
                          const GrowthOptions& options) {
-  c.label.resize(grid.sites.size(), kNone);
-  c.awake.resize(grid.sites.size(), 1);
-  c.border.resize(grid.sites.size(), 1);
-  std::vector<std::uint64_t> seeds;  // rank << 32 | site; as bits, positive floats are in order
-  for (std::size_t i = 0; i < grid.sites.size(); ++i)
-    if (c.label[i] == kNone && local[i].planar())
-      seeds.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(local[i].rank)} << 32 | i);
-  parallel_sort(seeds);
-
-  const double many = options.max_rms * options.max_rms;
-  const double one = options.max_distance * options.max_distance - many;
-  const float cos_angle = static_cast<float>(std::cos(options.max_angle));
-  std::vector<std::uint32_t> members;
-  for (const std::uint64_t key : seeds) {
-    const auto seed = static_cast<std::uint32_t>(key);
-    if (c.label[seed] != kNone) continue;
-    const auto id = static_cast<std::int32_t>(c.clusters.size());
-    Cluster cluster;
-    for (std::uint32_t j : neighbors.of(seed))
-      if (c.label[j] == kNone) cluster.moments += grid.sites[j].moments();
-    cluster.fit = fit(cluster.moments);
-    cluster.moments = grid.sites[seed].moments();
-    members.assign(1, seed);
-    c.label[seed] = id;
-    double refit_at = 40;
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      const std::size_t i = members[k];
-      const Vec3f normal = cluster.fit.plane.normal.cast<float>();
-      if (k > 0 && !(local[i].planar() && std::abs(local[i].normal.dot(normal)) > cos_angle))
-        continue;
-      for (std::uint32_t j : neighbors.of(i)) {
-        if (c.label[j] != kNone) continue;
-        const Site& s = grid.sites[j];
-        const double d = cluster.fit.plane.signed_distance(s.position());
-        const double variance = scale.variance_at(s.position());
-        if (d * d > (many + one) * variance) continue;
-        if (d * d + s.variance(cluster.fit.plane.normal) > (many + one / s.points) * variance)
-          continue;
-        if (local[j].planar() && std::abs(local[j].normal.dot(normal)) < cos_angle) continue;
-        c.label[j] = id;
-        members.push_back(j);
-        cluster.moments += s.moments();
-      }
-      if (cluster.moments.n >= refit_at) {
-        cluster.fit = fit(cluster.moments);
-        refit_at = cluster.moments.n * 1.3;
-      }
-    }
-    if (cluster.moments.n < options.min_points) {
-      for (std::uint32_t i : members) c.label[i] = kNone;
-      continue;
-    }
-    for (std::uint32_t i : members)
-      for (std::uint32_t j : neighbors.of(i)) c.awake[j] = 1;
-    cluster.fit = fit(cluster.moments);
-    c.clusters.push_back(cluster);
-  }
-  return c;
+  Grower grower(grid, neighbors, scale, local, std::move(c), options);
+  for (std::uint32_t seed : grower.find_seeds()) grower.grow(seed);
+  return grower.take_result();
 }
 
 }  // namespace scanworld::rival

@@ -79,15 +79,16 @@ std::optional<Plane> find_separator(const PointCloud& cloud, const Grid& grid, s
     offsets.clear();
     for (std::uint32_t j : neighbors.of(i)) {
       const Site& s = grid.sites[j];
-      if (is_mixed(s, normal, noise, options))
-        for (std::uint32_t p : grid.points_of(j))
-          offsets.push_back({offset(cloud.points[p]), 1, 0});
-      else
+      if (!is_mixed(s, normal, noise, options)) {
         offsets.push_back({offset(s.mean), static_cast<double>(s.points), s.variance(normal)});
+        continue;
+      }
+      const auto first = static_cast<std::ptrdiff_t>(offsets.size());
+      for (std::uint32_t p : grid.points_of(j)) offsets.push_back({offset(cloud.points[p]), 1, 0});
+      // Sums must not depend on the order of the points.
+      std::sort(offsets.begin() + first, offsets.end(),
+                [](const Offset& a, const Offset& b) { return a.mean < b.mean; });
     }
-    // Sums must not depend on the order of the points.
-    std::sort(offsets.begin(), offsets.end(),
-              [](const Offset& a, const Offset& b) { return a.mean < b.mean; });
     between = separate(offsets, noise, options);
   } else {
     std::array<std::vector<double>, 2> sides;  // against the normal, and along it

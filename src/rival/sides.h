@@ -15,8 +15,7 @@ struct SidesOptions {
 
 // Keeps both sides of thin walls. Where the points around a site lie in two parallel layers, told
 // by their normals where the scan has them, else by a gap in their offsets, the site's points are
-// divided: the farther side becomes a site of its own, and each side has neighbours on its side
-// only.
+// divided: the fewer become a site of their own, and each side has neighbours on its side only.
 Grid part_sides(const PointCloud& cloud, Grid grid, const Neighbors& neighbors,
                 const std::vector<LocalPlane>& local, const Scale& scale,
                 const SidesOptions& options = {});
