@@ -3,8 +3,10 @@
 #include "contacts.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "../parallel.h"
+#include "votes.h"
 
 namespace scanworld::rival {
 
@@ -16,20 +18,17 @@ std::vector<Contact> find_contacts(const Grid& grid, const Neighbors& neighbors,
   parallel_for(parts, [&](std::size_t part) {
     const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
     std::vector<Contact>& list = found[part];
-    std::vector<std::int32_t> others;
+    Votes votes;
+    std::unordered_map<std::uint64_t, std::size_t> index;  // in the list, by a << 32 | b
     for (std::size_t i = begin; i < end; ++i) {
       const std::int32_t a = c.label[i];
       if (a == kNone || !c.may_border(i)) continue;
-      others.clear();
-      for (std::uint32_t j : neighbors.of(i)) {
-        const std::int32_t b = c.label[j];
-        if (b != a && b != kNone) add_new(others, b);
-      }
-      for (std::int32_t b : others) {
-        auto at = std::find_if(list.begin(), list.end(),
-                               [&](const Contact& k) { return k.a == a && k.b == b; });
-        if (at == list.end()) at = list.insert(list.end(), {a, b, {}});
-        at->moments += grid.sites[i].moments();
+      for (const auto& [b, count] : votes.count(neighbors.of(i), c.label, a)) {
+        if (b == a) continue;
+        const auto key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+        const auto [at, is_new] = index.try_emplace(key, list.size());
+        if (is_new) list.push_back({a, b, {}});
+        list[at->second].moments += grid.sites[i].moments();
       }
     }
   });

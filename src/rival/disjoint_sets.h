@@ -21,6 +21,9 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
+  bool are_joined(std::size_t a, std::size_t b) {
+    return parent_[a] == parent_[b] || find(a) == find(b);
+  }
   void unite(std::size_t a, std::size_t b) {
     const std::uint32_t p = find(a), q = find(b);
     parent_[std::max(p, q)] = std::min(p, q);

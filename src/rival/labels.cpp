@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../parallel.h"
+#include "votes.h"
 
 namespace scanworld::rival {
 
@@ -17,31 +18,24 @@ constexpr std::size_t kPart = 1 << 12;
 // A cluster that the points of a site may belong to.
 struct Candidate {
   std::int32_t label;
-  int votes;
   double price = 0;  // for being among others, in squared noise
 };
 
 // The clusters of the sites around one, its own counting three times.
 void find_candidates(std::size_t i, const Neighbors& neighbors, const Clustering& c,
-                     double smoothness, std::vector<Candidate>& near) {
+                     double smoothness, Votes& votes, std::vector<Candidate>& near) {
   near.clear();
+  const std::int32_t own = c.label[i];
   if (!c.may_border(i)) {
-    if (c.label[i] != kNone) near.push_back({c.label[i], 1});
+    if (own != kNone) near.push_back({own});
     return;
   }
-  int total = 0;
-  for (std::uint32_t j : neighbors.of(i)) {
-    const int weight = i == j ? 3 : 1;
-    total += weight;
-    if (c.label[j] == kNone) continue;
-    const auto at = std::find_if(near.begin(), near.end(),
-                                 [&](const Candidate& k) { return k.label == c.label[j]; });
-    if (at != near.end())
-      at->votes += weight;
-    else
-      near.push_back({c.label[j], weight});
+  const auto around = neighbors.of(i);
+  const int total = static_cast<int>(around.size()) + 2;
+  for (const auto& [label, count] : votes.count(around, c.label, own)) {
+    const int others = total - count - (label == own ? 2 : 0);
+    near.push_back({label, smoothness * others / total});
   }
-  for (Candidate& k : near) k.price = smoothness * (total - k.votes) / total;
 }
 
 }  // namespace
@@ -63,9 +57,10 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
   parallel_for(parts, [&](std::size_t part) {
     const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
     counts[part].resize(c.clusters.size());
+    Votes votes;
     std::vector<Candidate> near;
     for (std::size_t i = begin; i < end; ++i) {
-      find_candidates(i, neighbors, c, options.smoothness, near);
+      find_candidates(i, neighbors, c, options.smoothness, votes, near);
       if (near.empty()) continue;
       const double variance = scale.variance_at(grid.sites[i].position());
       for (std::uint32_t point : grid.points_of(i)) {

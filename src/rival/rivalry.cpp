@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../parallel.h"
+#include "votes.h"
 
 namespace scanworld::rival {
 
@@ -13,63 +14,29 @@ namespace {
 
 constexpr std::size_t kPart = 1 << 12;
 
-struct Votes {
-  struct Entry {
-    std::int32_t label;
-    int count;
-  };
-  std::array<Entry, 12> entries;
-  std::size_t size = 0;
-  int total = 0;
-
-  void add(std::int32_t label) {
-    ++total;
-    if (label == kNone) return;
-    if (label == last) {
-      ++entries[at].count;
-      return;
-    }
-    last = label;
-    for (at = 0; at < size; ++at)
-      if (entries[at].label == label) {
-        ++entries[at].count;
-        return;
-      }
-    if (size < entries.size()) entries[size++] = {label, 1};
-    if (at >= size) last = kNone, at = 0;
-  }
-
- private:
-  std::int32_t last = kNone;  // the label added before, and where it is
-  std::size_t at = 0;
-};
-
 // The label that explains a site at the lowest price. Notes whether it has others around it.
 std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, const Grid& grid,
                         const std::vector<LocalPlane>& local, Clustering& c, const Scale& scale,
-                        float cos_angle, const RivalryOptions& options) {
-  // The site itself is among its neighbours.
-  Votes votes;
-  for (std::uint32_t j : around) votes.add(c.label[j]);
+                        float cos_angle, const RivalryOptions& options, Votes& votes) {
   const std::int32_t own = c.label[i];
-  --votes.total;
-  c.border[i] = votes.size > (own == kNone ? 0 : 1);
-  if (votes.size == 0) return kNone;
+  const auto& entries = votes.count(around, c.label, own);
+  c.border[i] = entries.size() > (own == kNone ? 0 : 1);
+  if (entries.empty()) return kNone;
+  const int total = static_cast<int>(around.size()) - 1;  // the site itself is among them
   const Site& s = grid.sites[i];
   const double per_square = 1 / scale.variance_at(s.position());
   const double n = std::min<double>(s.points, options.weight);
   double best = n * options.no_plane + options.smoothness;
   std::int32_t label = kNone;
-  for (std::size_t k = 0; k < votes.size; ++k) {
-    const auto& e = votes.entries[k];
+  for (const auto& e : entries) {
     const Plane& plane = c.plane(e.label);
     const double d = plane.signed_distance(s.position());
     const double ms = (d * d + s.variance(plane.normal)) * per_square;
     double price = n * std::min(ms, 16.0);
     if (local[i].planar() && std::abs(local[i].normal.dot(plane.normal.cast<float>())) < cos_angle)
       price += n * options.wrong_normal;
-    const int others = votes.total - e.count + (e.label == own ? 1 : 0);
-    price += options.smoothness * others / std::max(votes.total, 1);
+    const int others = total - e.count + (e.label == own ? 1 : 0);
+    price += options.smoothness * others / std::max(total, 1);
     if (price < best || (price == best && e.label < label)) best = price, label = e.label;
   }
   return label;
@@ -91,11 +58,12 @@ Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& sc
     std::vector<std::vector<Change>> found(parts);
     parallel_for(parts, [&](std::size_t part) {
       const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+      Votes votes;
       for (std::size_t i = begin; i < end; ++i) {
         if (!c.awake[i]) continue;
         c.awake[i] = 0;
         const std::int32_t label =
-            best_label(i, neighbors.of(i), grid, local, c, scale, cos_angle, options);
+            best_label(i, neighbors.of(i), grid, local, c, scale, cos_angle, options, votes);
         if (label != c.label[i]) found[part].push_back({static_cast<std::uint32_t>(i), label});
       }
     });

@@ -12,59 +12,88 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
+constexpr std::size_t kPart = 1 << 15;
 
-// Whether each site has one of another cluster among its neighbours, or is next to one that has.
-std::vector<char> find_border(const Neighbors& neighbors, const Clustering& c) {
-  std::vector<char> near(c.label.size());
-  parallel_for(part_count(near.size(), kPart), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, near.size(), kPart);
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto around = neighbors.of(i);
-      near[i] =
-          c.label[i] != kNone && std::any_of(around.begin(), around.end(), [&](std::uint32_t j) {
-            return c.label[j] != kNone && c.may_border(j);
-          });
-    }
-  });
-  return near;
-}
+// Joins neighbouring sites of a cluster unless the plane of one that crosses it is between them.
+class Connector {
+ public:
+  Connector(const Grid& grid, const Neighbors& neighbors, const Clustering& c, int reach)
+      : grid_(grid), neighbors_(neighbors), c_(c), reach_(reach), sets_(c.label.size()) {}
 
-// The clusters that go across that of a site around it.
-void find_across(const Grid& grid, const Neighbors& neighbors, const Clustering& c, std::size_t i,
-                 int reach, std::vector<std::int32_t>& across) {
-  across.clear();
-  const std::int32_t own = c.label[i];
-  const auto look = [&](std::size_t j) {
-    const std::int32_t l = c.label[j];
-    if (l != kNone && l != own && is_across(c.plane(l), c.plane(own))) add_new(across, l);
+  struct Link {
+    std::uint32_t from, to;
   };
-  grid.for_each_near(i, reach, look);
-  for (std::uint32_t j : neighbors.of(i)) look(j);
-}
+  // Those within a range of the sites; notes the links that leave it.
+  void join_within(const Part& range, std::vector<Link>& leaving) {
+    Across across;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (c_.label[i] == kNone) continue;
+      for (std::uint32_t j : neighbors_.of(i)) {
+        if (c_.label[j] != c_.label[i]) continue;
+        const Link link{static_cast<std::uint32_t>(i), j};
+        if (j < range.begin || j >= range.end)
+          leaving.push_back(link);
+        else
+          join(link, across);
+      }
+    }
+  }
+  void join_all(const std::vector<Link>& links) {
+    Across across;
+    for (const Link& link : links) join(link, across);
+  }
+  DisjointSets take() { return std::move(sets_); }
+
+ private:
+  // The clusters that go across that of a site around it.
+  struct Across {
+    std::uint32_t site = ~0u;
+    std::vector<std::int32_t> clusters;
+  };
+
+  void join(const Link& link, Across& across) {
+    // Mostly they are joined already; then there is nothing to test.
+    if (sets_.are_joined(link.from, link.to)) return;
+    if (across.site != link.from) find_across(link.from, across);
+    const Vec3 a = grid_.sites[link.from].position(), b = grid_.sites[link.to].position();
+    if (std::none_of(across.clusters.begin(), across.clusters.end(),
+                     [&](std::int32_t l) { return is_between(c_.plane(l), a, b); }))
+      sets_.unite(link.from, link.to);
+  }
+
+  void find_across(std::uint32_t i, Across& across) const {
+    across = {i, {}};
+    const auto around = neighbors_.of(i);
+    // Mostly nothing else is near.
+    if (std::none_of(around.begin(), around.end(),
+                     [&](std::uint32_t j) { return c_.label[j] != kNone && c_.may_border(j); }))
+      return;
+    const std::int32_t own = c_.label[i];
+    const auto look = [&](std::size_t j) {
+      const std::int32_t l = c_.label[j];
+      if (l != kNone && l != own && is_across(c_.plane(l), c_.plane(own)))
+        add_new(across.clusters, l);
+    };
+    grid_.for_each_near(i, reach_, look);
+    for (std::uint32_t j : around) look(j);
+  }
+
+  const Grid& grid_;
+  const Neighbors& neighbors_;
+  const Clustering& c_;
+  const int reach_;
+  DisjointSets sets_;
+};
 
 // The connected parts of all clusters.
 DisjointSets connect(const Grid& grid, const Neighbors& neighbors, const Clustering& c, int reach) {
-  const std::vector<char> near_border = find_border(neighbors, c);
-  DisjointSets parts(c.label.size());
-  std::vector<std::int32_t> across;
-  for (std::size_t i = 0; i < c.label.size(); ++i) {
-    if (c.label[i] == kNone) continue;
-    bool looked = false;
-    for (std::uint32_t j : neighbors.of(i)) {
-      // Mostly they are in one part already; then there is nothing to test.
-      if (c.label[j] != c.label[i] || parts.find(i) == parts.find(j)) continue;
-      if (near_border[i]) {
-        if (!looked) find_across(grid, neighbors, c, i, reach, across), looked = true;
-        if (std::any_of(across.begin(), across.end(), [&](std::int32_t l) {
-              return is_between(c.plane(l), grid.sites[i].position(), grid.sites[j].position());
-            }))
-          continue;
-      }
-      parts.unite(i, j);
-    }
-  }
-  return parts;
+  Connector connector(grid, neighbors, c, reach);
+  std::vector<std::vector<Connector::Link>> leaving(part_count(c.label.size(), kPart));
+  parallel_for(leaving.size(), [&](std::size_t part) {
+    connector.join_within(part_of(part, c.label.size(), kPart), leaving[part]);
+  });
+  for (const auto& links : leaving) connector.join_all(links);
+  return connector.take();
 }
 
 }  // namespace
