@@ -274,7 +274,7 @@ void apply_preset(ReconstructOptions& options, const std::string& preset) {
     filter.depth_step = 0.003, rival.scale.depth_step = 0.0015, rival.scale.min_voxel = 0.02;
   else if (preset == "fast")
     filter.min_size = 0.1, filter.points_per_cube = 16, rival.scale.voxel_per_spacing = 2,
-    rival.scale.min_voxel = 0.06, rival.birth_rounds = 1;
+    rival.scale.min_voxel = 0.06;
   else
     throw Error(Cause::usage, fmt::format("there is no preset '{}'; there are {}", preset,
                                           fmt::join(preset_names(), ", ")));

@@ -41,7 +41,7 @@ TEST_CASE("noise and spacing of a room are found, the voxel follows from them") 
       const Scale scale = estimate_scale(room_points({5, 4, 2.7}, spacing, noise));
       CHECK(scale.noise == doctest::Approx(noise).epsilon(0.2));
       CHECK(scale.spacing == doctest::Approx(spacing).epsilon(0.3));
-      CHECK(scale.voxel == std::max({0.04, 1.4 * scale.spacing, 3 * scale.noise}));
+      CHECK(scale.voxel == std::max({0.045, 1.5 * scale.spacing, 3 * scale.noise}));
     }
 }
 
@@ -126,4 +126,13 @@ TEST_CASE("the noise of a single plane is found at any height, also where cells 
     add_rectangle(flat, {0, 0, z}, {3, 0, 0}, {0, 3, 0}, 0.01, 0.006, random);
     CHECK(estimate_scale(flat).noise == doctest::Approx(0.006).epsilon(0.15));
   }
+}
+
+TEST_CASE("points at one place have no noise and no spacing that could be seen") {
+  PointCloud cloud;
+  cloud.points.assign(10000, Vec3f(1, 2, 3));
+  const Scale scale = estimate_scale(cloud);
+  CHECK(scale.noise == ScaleOptions{}.min_noise);
+  CHECK(scale.spacing == 0);
+  CHECK(scale.voxel == ScaleOptions{}.min_voxel);
 }

@@ -24,6 +24,7 @@ constexpr double kAgreement = 1.2, kOtherPlanes = 1.6;  // ratios of noise in ce
 constexpr double kMinSize = 12;                         // [noise] of cells that show all of it
 constexpr std::size_t kMaxPoints = 400;                 // of a cell are looked at
 constexpr std::size_t kMinCells = 24;  // that hold a plane, for a size of cells to be believed
+constexpr int kMaxAlone = 4;           // larger cells show no more where one holds all points
 constexpr double kSmallest = 0.15, kLargest = 1e5;  // [m] cells
 
 struct Sample {
@@ -45,6 +46,7 @@ std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint
   std::vector<std::vector<Sample>> found(parts);
   const float inverse = static_cast<float>(1 / size);
   const double shift = shift_of(size);
+  const std::uint64_t mask = rate - 1;
   constexpr std::int64_t kBias = 1 << 20;  // makes all positive, so that casts round down
   parallel_for(parts, [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
@@ -54,8 +56,7 @@ std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint
       std::uint64_t key = 0;
       for (int a = 0; a < 3; ++a)
         key = key << 21 | static_cast<std::uint64_t>(at[a] + shift + static_cast<double>(kBias));
-      if ((mix(key) & (std::max<std::uint64_t>(rate, 1) - 1)) == 0)
-        found[i].push_back({key, static_cast<std::uint32_t>(k)});
+      if ((mix(key) & mask) == 0) found[i].push_back({key, static_cast<std::uint32_t>(k)});
     }
   });
   std::vector<Sample> all;
@@ -107,7 +108,12 @@ CellFit fit_cell(const std::vector<Vec3>& points, double size) {
           plane.centroid};
 }
 
-std::vector<CellFit> fit_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
+struct CellFits {
+  std::vector<CellFit> fits;  // of the cells that hold one plane
+  std::size_t cells = 0;      // that hold points
+};
+
+CellFits fit_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
   std::vector<Sample> samples = sample_cells(cloud, size, rate);
   // In each cell by position, so that the same points are taken whatever their order.
   const auto before = [&](const Sample& a, const Sample& b) {
@@ -130,42 +136,54 @@ std::vector<CellFit> fit_cells(const PointCloud& cloud, double size, std::uint64
     fits[c] = fit_cell(points, size);
     fits[c].spacing /= std::sqrt(static_cast<double>(step));
   });
+  const std::size_t cells = samples.empty() ? 0 : fits.size();
   std::erase_if(fits, [](const CellFit& f) { return f.rms == 0; });
-  return fits;
+  return {std::move(fits), cells};
 }
 
-// Noise and spacing by the smallest cells that are much larger than the noise (others leave out
-// where there is most of it), that a good part of the scan fills, and that agree with the next
-// larger ones about noise. Much more noise in those is that of several planes.
-Scale look(const PointCloud& cloud, const Scale& camera) {
-  Scale last;
+// What the cells of one size show, or several together.
+struct Look {
+  double noise = 0, spacing = 0;  // [m] as in Scale
+  double modelled = 0;            // [m] the noise of a camera's model where the cells are, median
+};
+
+Look summarize(const std::vector<CellFit>& fits, const Scale& camera) {
+  std::vector<double> noise, spacing, modelled;
+  for (const CellFit& f : fits) {
+    modelled.push_back(camera.noise_at(f.centroid));
+    noise.push_back(f.rms > modelled.back() ? f.rms : 0);  // what the model does not explain
+    spacing.push_back(f.spacing);
+  }
+  return {quantile(noise, 0.75), quantile(spacing, 0.5), quantile(modelled, 0.5)};
+}
+
+// By the smallest cells that are much larger than the noise (others leave out where there is most
+// of it), of which enough hold a plane, and that agree with the next larger ones about noise. Much
+// more noise in those is that of several planes.
+Look look_at(const PointCloud& cloud, const Scale& camera) {
+  Look last;
   bool is_good = false;
-  for (double size = kSmallest; size < kLargest; size *= 2) {
+  int alone = 0;  // sizes of which one cell held all points
+  for (double size = kSmallest; size < kLargest && alone < kMaxAlone; size *= 2) {
     // Larger cells need more points for as many of them, dense scans even more.
     const auto wanted = static_cast<std::uint64_t>(kWanted * size / kSmallest);
     std::uint64_t rate = std::bit_floor(std::max<std::uint64_t>(1, cloud.points.size() / wanted));
-    std::vector<CellFit> fits = fit_cells(cloud, size, rate);
-    while (fits.size() < kMinCells && rate > 1) fits = fit_cells(cloud, size, rate /= 4);
-    if (fits.size() < kMinCells && is_good) break;
-    if (fits.empty()) continue;
-    std::vector<double> rms, spacing, modelled_noise;
-    for (const CellFit& f : fits) {
-      // What the camera's model does not explain.
-      const double modelled = camera.noise_at(f.centroid);
-      modelled_noise.push_back(modelled);
-      rms.push_back(f.rms > modelled ? f.rms : 0);
-      spacing.push_back(f.spacing);
+    CellFits seen = fit_cells(cloud, size, rate);
+    while (seen.fits.size() < kMinCells && rate > 1) {
+      rate = std::max<std::uint64_t>(1, rate / 4);
+      seen = fit_cells(cloud, size, rate);
     }
-    const Scale now{.noise = quantile(rms, 0.75),
-                    .spacing = quantile(spacing, 0.5),
-                    .voxel = quantile(modelled_noise, 0.5)};
+    if (rate == 1 && seen.cells <= 1) ++alone;
+    if (seen.fits.size() < kMinCells && is_good) break;
+    if (seen.fits.empty()) continue;
+    const Look now = summarize(seen.fits, camera);
     if (is_good && now.noise > kOtherPlanes * last.noise) break;
     if (is_good && now.noise <= kAgreement * last.noise) {
       last.noise = (last.noise + now.noise) / 2;
       break;
     }
     last = now;
-    is_good = fits.size() >= kMinCells && size >= kMinSize * last.noise;
+    is_good = seen.fits.size() >= kMinCells && size >= kMinSize * last.noise;
   }
   return last;
 }
@@ -175,17 +193,16 @@ Scale look(const PointCloud& cloud, const Scale& camera) {
 Scale estimate_scale(const PointCloud& cloud, const ScaleOptions& options) {
   Scale scale{options.noise, options.spacing, options.voxel, options.depth_step};
   if (!cloud.viewpoints.empty()) scale.camera = cloud.viewpoints[0];
-  double far_noise = 0;  // [m] of a camera, at the far end of the scan
+  Look seen;
   if (scale.noise == 0 || scale.spacing == 0) {
-    const Scale seen = look(cloud, scale);
-    far_noise = seen.voxel;
+    seen = look_at(cloud, scale);
     if (scale.noise == 0) scale.noise = seen.noise;
     if (scale.spacing == 0) scale.spacing = seen.spacing;
   }
   scale.noise = std::max(scale.noise, options.min_noise);
   if (scale.voxel == 0)
     scale.voxel = std::max({options.min_voxel, options.voxel_per_spacing * scale.spacing,
-                            options.voxel_per_noise * std::max(scale.noise, far_noise)});
+                            options.voxel_per_noise * std::max(scale.noise, seen.modelled)});
   return scale;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages.h"
 
+#include <algorithm>
+
 namespace scanworld::test {
 
 using namespace rival;
@@ -40,6 +42,7 @@ RivalOptions known_scale(double noise, double spacing) {
   RivalOptions options;
   options.scale.noise = noise;
   options.scale.spacing = spacing;
+  options.scale.voxel = std::max({0.04, 1.4 * spacing, 3 * noise});
   return options;
 }
 
