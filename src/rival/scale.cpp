@@ -21,8 +21,9 @@ constexpr std::size_t kPart = 1 << 16;
 constexpr std::size_t kMinPoints = 12;  // in a cell that is looked at
 constexpr double kWanted = 20000;       // points in the smallest cells that are looked at
 constexpr double kAgreement = 1.2, kOtherPlanes = 1.6;  // ratios of noise in cells twice as large
-constexpr double kMinSize = 12;                         // [noise] of cells that show all of it
-constexpr std::size_t kMaxPoints = 400;                 // of a cell are looked at
+// Noise larger than cells can show looks like about a twelfth of their size.
+constexpr double kMinSize = 12, kSureSize = 14;  // [noise] of cells that show all of it
+constexpr std::size_t kMaxPoints = 400;          // of a cell are looked at
 constexpr std::size_t kMinCells = 24;  // that hold a plane, for a size of cells to be believed
 constexpr int kMaxAlone = 4;           // larger cells show no more where one holds all points
 constexpr double kSmallest = 0.15, kLargest = 1e5;  // [m] cells
@@ -162,7 +163,7 @@ Look summarize(const std::vector<CellFit>& fits, const Scale& camera) {
 // more noise in those is that of several planes.
 Look look_at(const PointCloud& cloud, const Scale& camera) {
   Look last;
-  bool is_good = false;
+  bool is_good = false, is_sure = false;
   int alone = 0;  // sizes of which one cell held all points
   for (double size = kSmallest; size < kLargest && alone < kMaxAlone; size *= 2) {
     // Larger cells need more points for as many of them, dense scans even more.
@@ -177,13 +178,14 @@ Look look_at(const PointCloud& cloud, const Scale& camera) {
     if (seen.fits.size() < kMinCells && is_good) break;
     if (seen.fits.empty()) continue;
     const Look now = summarize(seen.fits, camera);
-    if (is_good && now.noise > kOtherPlanes * last.noise) break;
+    if (is_sure && now.noise > kOtherPlanes * last.noise) break;
     if (is_good && now.noise <= kAgreement * last.noise) {
       last.noise = (last.noise + now.noise) / 2;
       break;
     }
     last = now;
     is_good = seen.fits.size() >= kMinCells && size >= kMinSize * last.noise;
+    is_sure = is_good && size >= kSureSize * last.noise;
   }
   return last;
 }
