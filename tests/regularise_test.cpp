@@ -42,10 +42,10 @@ void check_near(const std::vector<Cluster>& before, const std::vector<Cluster>& 
     const Cluster &a = before[k], &b = after[k];
     CHECK(b.moments.n == a.moments.n);
     CHECK(b.fit.centroid == a.fit.centroid);
-    CHECK(b.fit.plane.normal.norm() == doctest::Approx(1).epsilon(1e-12));
+    CHECK(b.fit.plane.normal.norm() == doctest::Approx(1).scale(0).epsilon(1e-12));
     CHECK(b.fit.plane.normal.dot(a.fit.plane.normal) > std::cos(0.02));
     const double square = b.moments.mean_square(b.fit.plane);
-    CHECK(square == doctest::Approx(b.fit.variance[0]).epsilon(1e-6));
+    CHECK(square == doctest::Approx(b.fit.variance[0]).scale(0).epsilon(1e-6));
     CHECK((square - a.fit.variance[0]) * a.moments.n < 25 * kNoise * kNoise);
   }
 }
@@ -82,7 +82,7 @@ TEST_CASE("a wall that its points tell is askew stays so") {
                                          rectangle(kZ, kX, askew, random)};
     const std::vector<Cluster> after = turned(before);
     check_near(before, after);
-    CHECK(std::acos(cosine(after[0], after[1])) == doctest::Approx(angle).epsilon(0.1));
+    CHECK(std::acos(cosine(after[0], after[1])) == doctest::Approx(angle).scale(0).epsilon(0.1));
   }
 }
 

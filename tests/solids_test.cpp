@@ -48,7 +48,7 @@ TEST_CASE("solids are closed, face outwards and have their volume") {
     CHECK(volume_of(mesh_of(corners)) == doctest::Approx(size.prod()));
   }
   CHECK(volume_of(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3::UnitZ(), 256)) ==
-        doctest::Approx(M_PI * 0.25 * 2).epsilon(1e-3));
+        doctest::Approx(M_PI * 0.25 * 2).scale(0).epsilon(1e-3));
   CHECK(volume_of(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3(0, -0.6, 0.8))) > 1.5);
 }
 
