@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_json.h"
 
-#include <algorithm>
-
 #include "cli.h"
 #include "version.h"
 #include "world/world_json.h"
@@ -13,12 +11,6 @@ namespace scanworld::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::size_t out_of(const Report& report, std::string_view stage) {
-  const auto found = std::find_if(report.stages.begin(), report.stages.end(),
-                                  [&](const StageReport& s) { return s.name == stage; });
-  return found == report.stages.end() ? 0 : found->out;
-}
 
 Json json_of(const StageReport& s) {
   return {{"name", s.name},
@@ -61,7 +53,7 @@ Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
           {"spacing", report.spacing},
           {"noise", report.noise},
           {"planes", planes_json(result)},
-          {"triangles", out_of(report, "Triangulation")},
+          {"triangles", triangle_count(result.world)},
           {"surfaces", kind_counts(result.world)},
           {"stages", stages},
           {"cpu_seconds", cpu},

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "error.h"
+#include "surface/describe.h"
 #include "thesis/labels.h"
 #include "thesis/triangulation.h"
 #include "thesis/walls.h"
@@ -75,48 +76,6 @@ std::vector<FoundSurface> make_polygons(const PointCloud& cloud, const Walls& wa
   });
 }
 
-std::size_t count_of(const Walls& walls) { return walls.points.size(); }
-
-// The planes as walls, their sites thinned: each 2 x 2 x 2 voxels have one point for each plane.
-Walls walls_of(const rival::Grid& grid, const rival::Clustering& clusters,
-               const rival::LabelledPoints& labelled) {
-  Walls walls;
-  walls.delta = 1.5 * grid.voxel;
-  for (const rival::LabelledPlane& p : labelled.planes)
-    walls.clusters.push_back({{}, {p.fit.centroid, p.fit.plane}});
-  struct Thinned {
-    std::uint32_t cell;
-    std::int32_t plane;
-    Vec3 sum;
-    int sites;
-  };
-  std::vector<Thinned> here;
-  const auto finish = [&] {
-    for (const Thinned& t : here) {
-      walls.clusters[static_cast<std::size_t>(t.plane)].members.push_back(
-          static_cast<int>(walls.points.size()));
-      walls.points.push_back(t.sum / t.sites);
-    }
-    here.clear();
-  };
-  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
-    const std::int32_t l = clusters.label[i];
-    const std::int32_t plane =
-        l == rival::kNone ? l : labelled.plane_of[static_cast<std::size_t>(l)];
-    if (plane == rival::kNone) continue;
-    constexpr std::uint32_t kHalf = ~0b001001001u;  // drops the lowest bit of x, y and z
-    const std::uint32_t cell = grid.sites[i].voxel & kHalf;
-    if (!here.empty() && here.back().cell >> 9 != cell >> 9) finish();
-    auto at = std::find_if(here.begin(), here.end(),
-                           [&](const Thinned& t) { return t.cell == cell && t.plane == plane; });
-    if (at == here.end()) at = here.insert(here.end(), {cell, plane, Vec3::Zero(), 0});
-    at->sum += grid.sites[i].position();
-    ++at->sites;
-  }
-  finish();
-  return walls;
-}
-
 // The stages of the thesis, by the names in its Table 4, and what comes after them.
 std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
                                          const thesis::ThesisOptions& options, StageLog& log,
@@ -139,20 +98,46 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
   return make_polygons(cloud, {filtered.points, walls, delta}, tree, result.labels, options, log);
 }
 
-// Turns surfaces to the side that most of their points' normals point to.
-void face_normals(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
-                  std::vector<FoundSurface>& surfaces) {
-  std::vector<std::int64_t> along(surfaces.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] < 0) continue;
-    const auto l = static_cast<std::size_t>(labels[i]);
-    along[l] += cloud.normals[i].cast<double>().dot(surfaces[l].plane.normal) > 0 ? 1 : -1;
-  }
-  for (std::size_t k = 0; k < surfaces.size(); ++k)
-    if (along[k] < 0) {
-      surfaces[k].plane = surfaces[k].plane.flipped();
-      std::reverse(surfaces[k].outer.begin(), surfaces[k].outer.end());
-    }
+// Gives the points of each plane to its first piece, and what is known of the plane to all of them.
+void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
+             ReconstructResult& result) {
+  std::vector<std::int32_t> first(planes, -1);
+  std::vector<double> noise;
+  for (std::size_t k = pieces.size(); k-- > 0;)
+    first[static_cast<std::size_t>(pieces[k].patch)] = static_cast<std::int32_t>(k);
+  for (const surface::Piece& piece : pieces)
+    noise.push_back(result.report.plane_noise[static_cast<std::size_t>(piece.patch)]);
+  result.report.plane_noise = std::move(noise);
+  for (std::int32_t& label : result.labels)
+    if (label >= 0) label = first[static_cast<std::size_t>(label)];
+}
+
+// The planes' polygons. A plane's points are labelled with its largest piece.
+std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
+                                        double voxel, const surface::Surroundings& around,
+                                        const surface::SurfaceOptions& options, StageLog& log,
+                                        ReconstructResult& result) {
+  using namespace surface;
+  const Members members = group_points(result.labels, planes.size());
+  const Vec3 up = find_frame(cloud, {}).up;
+  const std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
+    return find_patches(cloud, members, planes, voxel, around, up, options.patch);
+  });
+  const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
+                                          [&] { return find_seams(patches, options.seams); });
+  const std::vector<std::vector<CutLine>> lines = lines_of(patches, seams, options.seams);
+  const std::vector<SharedEdge> edges =
+      log.run("Finding free edges", "patches -> edges", patches, [&] {
+        return share_edges(find_free_edges(cloud, members, patches, lines, options.free_edges),
+                           patches, seams, options.shared_edges);
+      });
+  const Pieces pieces = log.run("Outlining", "patches -> polygons", patches,
+                                [&] { return outline_patches(patches, lines, edges, options); });
+  return log.run("Welding", "polygons -> surfaces", pieces, [&] {
+    const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
+    relabel(welded, planes.size(), result);
+    return describe(cloud, members, patches, welded);
+  });
 }
 
 // The default method, docs/method.md.
@@ -205,14 +190,20 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
   result.labels = std::move(labelled.labels);
   for (const LabelledPlane& plane : labelled.planes)
     result.report.plane_noise.push_back(plane.noise);
-  const Walls walls = log.run("Thinning sites", "sites -> points", grid,
-                              [&] { return walls_of(grid, clusters, labelled); });
-  const thesis::KdTree tree = log.run("Building the tree", "points -> nodes", walls,
-                                      [&] { return thesis::KdTree(walls.points); });
-  std::vector<FoundSurface> surfaces =
-      make_polygons(cloud, walls, tree, result.labels, all.thesis, log);
-  if (!cloud.normals.empty()) face_normals(cloud, result.labels, surfaces);
-  return surfaces;
+  std::vector<Plane> planes;
+  for (const LabelledPlane& plane : labelled.planes) planes.push_back(plane.fit.plane);
+  std::vector<Vec3f> sites;
+  std::vector<std::int32_t> plane_of;
+  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
+    const std::int32_t l = clusters.label[i];
+    sites.push_back(grid.sites[i].mean);
+    plane_of.push_back(l == kNone ? l : labelled.plane_of[static_cast<std::size_t>(l)]);
+  }
+  const double voxel = grid.voxel;
+  grid = {}, neighbors = {};
+  return make_surfaces(cloud, planes, voxel,
+                       surface::surroundings_of(std::move(sites), std::move(plane_of)), all.surface,
+                       log, result);
 }
 
 }  // namespace
@@ -220,7 +211,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 20);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 17);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);
@@ -251,8 +242,9 @@ const char* name_of(Method method) { return method == Method::thesis ? "thesis" 
 
 OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
-  const OptionList more = thesis::list_options(options.thesis);
-  list.insert(list.end(), more.begin(), more.end());
+  for (const OptionList& more :
+       {surface::list_options(options.surface), thesis::list_options(options.thesis)})
+    list.insert(list.end(), more.begin(), more.end());
   return list;
 }
 

@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "report.h"
 #include "rival/rival.h"
+#include "surface/surface.h"
 #include "thesis/thesis.h"
 #include "world/world.h"
 
@@ -20,7 +21,8 @@ enum class Method { rival, thesis };
 struct ReconstructOptions {
   Method method = Method::rival;
   rival::RivalOptions rival;
-  thesis::ThesisOptions thesis;  // for its method, and for the polygons of both
+  thesis::ThesisOptions thesis;
+  surface::SurfaceOptions surface;  // the polygons of rival
 };
 
 struct ReconstructResult {

@@ -32,11 +32,13 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"scan", {"ground"}},
     {"thesis", {"ground"}},
     {"rival", {"ground"}},
+    {"surface", {"ground"}},
     {"world", {"ground"}},
-    {"reconstruct", {"ground", "scan", "thesis", "rival", "world"}},
+    {"reconstruct", {"ground", "scan", "thesis", "rival", "surface", "world"}},
     {"exporters", {"ground", "world"}},
-    {"apps", {"ground", "scan", "thesis", "rival", "world", "reconstruct", "exporters"}},
-    {"bench", {"ground", "scan", "thesis", "rival", "world", "reconstruct", "exporters"}},
+    {"apps", {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
+    {"bench",
+     {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
 };
 
 // The start of a library's header names, and the one file that may include them.
@@ -46,6 +48,7 @@ const std::vector<std::pair<std::string, std::string>> kLibraries = {
     {"assimp/", "exporters/assimp.cpp"},
     {"tiny_gltf.h", "exporters/gltf.cpp"},
     {"embree3/", "src/world/ray_scene.cpp"},
+    {"boost/", "src/surface/choose_cells.cpp"},
     {"geos", "src/world/geos.cpp"},
     {"libqhull", "src/world/solids.cpp"},
     {"zlib.h", "src/scan/file.cpp"},

@@ -41,6 +41,15 @@ const char* name_of(OpeningKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+std::size_t triangle_count(const World& world) {
+  std::size_t count = 0;
+  for (const Surface& s : world.surfaces) {
+    count += s.outer.size() - 2;
+    for (const Loop& hole : s.holes) count += hole.size() + 2;
+  }
+  return count;
+}
+
 double area(const World& world, const Surface& surface) {
   Vec3 sum = doubled_area(world, surface.outer);
   for (const Loop& hole : surface.holes) sum += doubled_area(world, hole);

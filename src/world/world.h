@@ -149,6 +149,9 @@ const char* name_of(Kind kind);
 const char* name_of(Source source);
 const char* name_of(OpeningKind kind);
 
+// Of any triangulation without further vertices.
+std::size_t triangle_count(const World& world);
+
 // The area of a surface [m2].
 double area(const World& world, const Surface& surface);
 

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "describe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../parallel.h"
+
+namespace scanworld::surface {
+
+namespace {
+
+// A polygon in the frame of its patch.
+struct FlatPolygon {
+  std::vector<std::vector<Vec2>> loops;
+  Eigen::AlignedBox2d box;
+
+  // By the number of edges to the right (the even-odd rule).
+  bool contains(const Vec2& p) const {
+    if (!box.contains(p)) return false;
+    bool inside = false;
+    for (const auto& loop : loops)
+      for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        const Vec2 &a = loop[i], &b = loop[j];
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+          inside = !inside;
+      }
+    return inside;
+  }
+};
+
+FlatPolygon flatten(const PlaneFrame& frame, const Piece& piece) {
+  FlatPolygon polygon;
+  for (const auto& loop : piece.loops) {
+    polygon.loops.emplace_back();
+    for (const Vec3& v : loop) {
+      polygon.loops.back().push_back(frame.to_plane(v));
+      polygon.box.extend(polygon.loops.back().back());
+    }
+  }
+  return polygon;
+}
+
+// The share of the patch's cells in the polygon that have points.
+double coverage(const Patch& patch, const FlatPolygon& polygon) {
+  std::size_t inside = 0, covered = 0;
+  const Raster& hit = patch.hit;
+  const Vec2 low = ((polygon.box.min() - hit.low) / hit.cell).array().floor(),
+             high = ((polygon.box.max() - hit.low) / hit.cell).array().ceil();
+  for (int y = std::max(0, static_cast<int>(low.y()));
+       y < std::min(hit.height, static_cast<int>(high.y())); ++y)
+    for (int x = std::max(0, static_cast<int>(low.x()));
+         x < std::min(hit.width, static_cast<int>(high.x())); ++x) {
+      if (!polygon.contains(hit.middle(x, y))) continue;
+      ++inside;
+      covered += hit.is_set(x, y);
+    }
+  return inside > 0 ? static_cast<double>(covered) / static_cast<double>(inside) : 1;
+}
+
+FoundSurface describe(const PointCloud& cloud, std::span<const std::uint32_t> members,
+                      const Patch& patch, const Piece& piece) {
+  const FlatPolygon polygon = flatten(patch.frame, piece);
+  FoundSurface surface{.plane = patch.plane,
+                       .outer = piece.loops[0],
+                       .holes = {piece.loops.begin() + 1, piece.loops.end()}};
+  std::uint64_t square_um = 0;  // [um2] of the distances from the plane, in whole numbers
+  std::array<std::uint64_t, 3> color{};
+  for (std::uint32_t i : members) {
+    const auto um = static_cast<std::uint64_t>(
+        std::abs(patch.plane.signed_distance(cloud.points[i].cast<double>())) * 1e6 + 0.5);
+    square_um += um * um;
+    if (cloud.colors.empty()) continue;
+    const Color& c = cloud.colors[i];
+    color[0] += c.r, color[1] += c.g, color[2] += c.b;
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(1, members.size()));
+  surface.support = {members.size(), std::sqrt(static_cast<double>(square_um) / n) * 1e-6,
+                     coverage(patch, polygon)};
+  const auto mean = [&](std::size_t k) {
+    return static_cast<std::uint8_t>(static_cast<double>(color[k]) / n + 0.5);
+  };
+  if (!cloud.colors.empty()) surface.color = Color{mean(0), mean(1), mean(2)};
+  return surface;
+}
+
+}  // namespace
+
+std::vector<FoundSurface> describe(const PointCloud& cloud, const Members& members,
+                                   const std::vector<Patch>& patches,
+                                   const std::vector<Piece>& pieces) {
+  std::vector<FoundSurface> surfaces(pieces.size());
+  parallel_for(pieces.size(), [&](std::size_t k) {
+    const auto patch = static_cast<std::size_t>(pieces[k].patch);
+    surfaces[k] = describe(cloud, members.of(patch), patches[patch], pieces[k]);
+  });
+  return surfaces;
+}
+
+}  // namespace scanworld::surface

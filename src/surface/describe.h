@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "patch.h"
+#include "weld.h"
+
+namespace scanworld::surface {
+
+// Each polygon as a surface, with what the scan says of it: its support and its colour.
+std::vector<FoundSurface> describe(const PointCloud& cloud, const Members& members,
+                                   const std::vector<Patch>& patches,
+                                   const std::vector<Piece>& pieces);
+
+}  // namespace scanworld::surface

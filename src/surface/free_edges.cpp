@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "free_edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace scanworld::surface {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The loops around the set cells, which lie to their left; each by the middles of the cells' edges.
+class Outlines {
+ public:
+  explicit Outlines(const Raster& raster)
+      : raster_(raster),
+        out_(static_cast<std::size_t>(raster.width + 1) *
+             static_cast<std::size_t>(raster.height + 1)) {}
+
+  std::vector<std::vector<Vec2>> trace() {
+    for (int y = 0; y < raster_.height; ++y)
+      for (int x = 0; x < raster_.width; ++x) {
+        if (!raster_.is_set(x, y)) continue;
+        if (!raster_.is_set(x, y - 1)) out(x, y) |= 1;
+        if (!raster_.is_set(x + 1, y)) out(x + 1, y) |= 2;
+        if (!raster_.is_set(x, y + 1)) out(x + 1, y + 1) |= 4;
+        if (!raster_.is_set(x - 1, y)) out(x, y + 1) |= 8;
+      }
+    std::vector<std::vector<Vec2>> loops;
+    for (int y = 0; y <= raster_.height; ++y)
+      for (int x = 0; x <= raster_.width; ++x)
+        while (out(x, y) != 0) loops.push_back(trace_from(x, y));
+    return loops;
+  }
+
+ private:
+  // Which ways edges leave a corner of the cells: bit k for (k quarter turns from +x).
+  std::uint8_t& out(int x, int y) {
+    return out_[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width + 1) +
+                static_cast<std::size_t>(x)];
+  }
+
+  std::vector<Vec2> trace_from(int x, int y) {
+    constexpr int kX[] = {1, 0, -1, 0}, kY[] = {0, 1, 0, -1};
+    std::vector<Vec2> middles;
+    int way = std::countr_zero(out(x, y));
+    while (out(x, y) != 0) {
+      // Left first: cells that touch at a corner alone are apart.
+      for (int turn : {1, 0, 3})
+        if (out(x, y) >> ((way + turn) & 3) & 1) {
+          way = (way + turn) & 3;
+          break;
+        }
+      if (!(out(x, y) >> way & 1)) way = std::countr_zero(out(x, y));
+      out(x, y) &= static_cast<std::uint8_t>(~(1 << way));
+      middles.push_back(raster_.low + raster_.cell * Vec2(x + 0.5 * kX[way], y + 0.5 * kY[way]));
+      x += kX[way], y += kY[way];
+    }
+    return middles;
+  }
+
+  const Raster& raster_;
+  std::vector<std::uint8_t> out_;
+};
+
+// Douglas and Peucker 1973: appends the last point of each straight piece.
+void simplify(const std::vector<Vec2>& points, std::size_t first, std::size_t last,
+              double tolerance, std::vector<std::size_t>& ends) {
+  const Vec2 chord = points[last] - points[first];
+  const double length = chord.norm();
+  double farthest = tolerance;
+  std::size_t at = last;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const Vec2 to = points[i] - points[first];
+    const double off =
+        length > 0 ? std::abs(chord.x() * to.y() - chord.y() * to.x()) / length : to.norm();
+    if (off > farthest) farthest = off, at = i;
+  }
+  if (at == last) return ends.push_back(last);
+  simplify(points, first, at, tolerance, ends);
+  simplify(points, at, last, tolerance, ends);
+}
+
+struct Piece {
+  Vec2 from, to, outward;  // unit vector
+  double offset = 0;       // outward . x on it
+};
+
+class EdgeFinder {
+ public:
+  EdgeFinder(const Patch& patch, const std::vector<CutLine>& lines, const FreeEdgeOptions& options)
+      : patch_(patch), options_(options) {
+    for (const CutLine& l : lines) {
+      const Vec2 direction(l.line.direction.dot(patch.frame.u),
+                           l.line.direction.dot(patch.frame.v));
+      angles_.push_back(std::atan2(direction.y(), direction.x()));
+      lines_.push_back({patch.frame.to_plane(l.line.at(0)), direction, l.seen});
+    }
+  }
+
+  std::vector<Piece> find() {
+    for (const std::vector<Vec2>& loop : Outlines(patch_.covered).trace()) add_loop(loop);
+    return std::move(pieces_);
+  }
+
+ private:
+  struct Line {
+    Vec2 origin, direction;
+    std::vector<Interval> seen;
+  };
+
+  bool is_explained(const Vec2& p) const {
+    const double reach = options_.near_seam * patch_.covered.cell;
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+      const Vec2 to = p - line.origin;
+      if (std::abs(line.direction.x() * to.y() - line.direction.y() * to.x()) > reach) return false;
+      const double t = line.direction.dot(to);
+      return std::any_of(line.seen.begin(), line.seen.end(), [&](const Interval& i) {
+        return t > i.low - reach && t < i.high + reach;
+      });
+    });
+  }
+
+  void add_loop(const std::vector<Vec2>& loop) {
+    const std::size_t n = loop.size();
+    std::vector<char> explained(n);
+    for (std::size_t i = 0; i < n; ++i) explained[i] = is_explained(loop[i]);
+    const auto first = std::find(explained.begin(), explained.end(), 1) - explained.begin();
+    std::vector<Vec2> run;
+    if (static_cast<std::size_t>(first) == n) {  // from its lowest corner, and back to it
+      const auto start = std::min_element(loop.begin(), loop.end(),
+                                          [](const Vec2& a, const Vec2& b) {
+                                            return a.x() + a.y() < b.x() + b.y();
+                                          }) -
+                         loop.begin();
+      for (std::size_t k = 0; k <= n; ++k)
+        run.push_back(loop[(static_cast<std::size_t>(start) + k) % n]);
+      return add_run(run);
+    }
+    for (std::size_t k = 0; k <= n; ++k) {
+      const std::size_t i = (static_cast<std::size_t>(first) + k) % n;
+      if (!explained[i]) {
+        run.push_back(loop[i]);
+      } else {
+        if (run.size() > 1) add_run(run);
+        run.clear();
+      }
+    }
+  }
+
+  void add_run(const std::vector<Vec2>& run) {
+    std::vector<std::size_t> ends = {0};
+    simplify(run, 0, run.size() - 1, options_.tolerance * patch_.covered.cell, ends);
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      if ((run[ends[k]] - run[ends[k - 1]]).norm() < options_.min_length) continue;
+      add_piece({run.begin() + static_cast<std::ptrdiff_t>(ends[k - 1]),
+                 run.begin() + static_cast<std::ptrdiff_t>(ends[k]) + 1});
+    }
+  }
+
+  void add_piece(const std::vector<Vec2>& points) {
+    Vec2 mean = Vec2::Zero();
+    for (const Vec2& p : points) mean += p;
+    mean /= static_cast<double>(points.size());
+    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+    for (const Vec2& p : points) scatter += (p - mean) * (p - mean).transpose();
+    const double angle = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+    const double snapped = snap(angle);
+    Vec2 along(std::cos(snapped), std::sin(snapped));
+    if (along.dot(points.back() - points.front()) < 0) along = -along;
+    // The patch lies to the left.
+    const Vec2 outward(along.y(), -along.x());
+    const auto on_line = [&](const Vec2& p) -> Vec2 { return p + outward * outward.dot(mean - p); };
+    pieces_.push_back(
+        {on_line(points.front()), on_line(points.back()), outward, outward.dot(mean)});
+  }
+
+  // The nearest of the seams' angles and those square to them.
+  double snap(double angle) const {
+    double best = angle, least = options_.snap_angle;
+    for (double a : angles_) {
+      const double turn = std::remainder(angle - a, kPi / 2);
+      if (std::abs(turn) < least) least = std::abs(turn), best = angle - turn;
+    }
+    return best;
+  }
+
+  const Patch& patch_;
+  const FreeEdgeOptions& options_;
+  std::vector<Line> lines_;
+  std::vector<double> angles_;
+  std::vector<Piece> pieces_;
+};
+
+// The pieces near each square of 8 x 8 cells.
+class NearPieces {
+ public:
+  NearPieces(const Raster& raster, const std::vector<Piece>& pieces, double reach)
+      : low_(raster.low),
+        square_(8 * raster.cell),
+        width_(raster.width / 8 + 1),
+        height_(raster.height / 8 + 1),
+        lists_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
+    const double around = reach + square_;  // more than half a square's diagonal
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const Piece& p = pieces[k];
+      const Vec2 low = ((p.from.cwiseMin(p.to).array() - reach).matrix() - low_) / square_,
+                 high = ((p.from.cwiseMax(p.to).array() + reach).matrix() - low_) / square_;
+      for (int y = std::max(0, static_cast<int>(low.y()));
+           y <= std::min(height_ - 1, static_cast<int>(high.y())); ++y)
+        for (int x = std::max(0, static_cast<int>(low.x()));
+             x <= std::min(width_ - 1, static_cast<int>(high.x())); ++x) {
+          const Vec2 middle = low_ + square_ * Vec2(x + 0.5, y + 0.5);
+          if (std::abs(p.outward.dot(middle) - p.offset) < around)
+            lists_[index(x, y)].push_back(static_cast<std::uint32_t>(k));
+        }
+    }
+  }
+
+  const std::vector<std::uint32_t>& at(const Vec2& p) const {
+    const Vec2 q = (p - low_) / square_;
+    return lists_[index(static_cast<int>(q.x()), static_cast<int>(q.y()))];
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  Vec2 low_;
+  double square_;
+  int width_, height_;
+  std::vector<std::vector<std::uint32_t>> lists_;
+};
+
+// Moves pieces to where the points end: along each the outermost points of bins two cells wide; the
+// median of their places is as far from the edge as points of this density leave it (the first of a
+// Poisson process).
+void refine(const PointCloud& cloud, std::span<const std::uint32_t> members, const Patch& patch,
+            std::vector<Piece>& pieces) {
+  const double reach = 2.5 * patch.covered.cell, width = 2 * patch.covered.cell;
+  struct Bins {
+    std::vector<double> farthest;
+    std::size_t points = 0;
+  };
+  std::vector<Bins> bins;
+  for (const Piece& p : pieces)
+    bins.push_back(
+        {std::vector<double>(
+             std::max<std::size_t>(1, static_cast<std::size_t>((p.to - p.from).norm() / width)),
+             -1e9),
+         0});
+  const NearPieces near(patch.covered, pieces, reach);
+  for (std::uint32_t i : members) {
+    const Vec2 q = patch.frame.to_plane(cloud.points[i].cast<double>());
+    for (std::uint32_t k : near.at(q)) {
+      const Piece& p = pieces[k];
+      const double off = p.outward.dot(q) - p.offset;
+      if (std::abs(off) > reach) continue;
+      const double length = (p.to - p.from).norm(), t = (p.to - p.from).dot(q - p.from) / length;
+      if (t < 0 || t >= length) continue;
+      const auto bin =
+          static_cast<std::size_t>(t / length * static_cast<double>(bins[k].farthest.size()));
+      double& farthest = bins[k].farthest[std::min(bin, bins[k].farthest.size() - 1)];
+      farthest = std::max(farthest, off);
+      ++bins[k].points;
+    }
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    std::vector<double>& farthest = bins[k].farthest;
+    const auto middle = farthest.begin() + static_cast<std::ptrdiff_t>(farthest.size() / 2);
+    std::nth_element(farthest.begin(), middle, farthest.end());
+    if (*middle < -reach) continue;
+    Piece& p = pieces[k];
+    const double length = (p.to - p.from).norm();
+    const double density = static_cast<double>(bins[k].points) / (length * (*middle + reach));
+    const double bin = length / static_cast<double>(farthest.size());
+    const double shift = std::min(*middle + std::log(2.0) / (density * bin), reach);
+    p.offset += shift, p.from += shift * p.outward, p.to += shift * p.outward;
+  }
+}
+
+}  // namespace
+
+std::vector<FreeEdge> find_free_edges(const PointCloud& cloud,
+                                      std::span<const std::uint32_t> members, const Patch& patch,
+                                      const std::vector<CutLine>& lines,
+                                      const FreeEdgeOptions& options) {
+  std::vector<Piece> pieces = EdgeFinder(patch, lines, options).find();
+  refine(cloud, members, patch, pieces);
+  std::vector<FreeEdge> edges;
+  for (const Piece& p : pieces) {
+    const Vec3 outward = p.outward.x() * patch.frame.u + p.outward.y() * patch.frame.v;
+    const Vec3 from = patch.frame.to_space(p.from);
+    edges.push_back({.from = from,
+                     .to = patch.frame.to_space(p.to),
+                     .plane = plane_through(from, outward.normalized())});
+  }
+  return edges;
+}
+
+}  // namespace scanworld::surface

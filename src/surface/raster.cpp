@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "raster.h"
+
+#include <algorithm>
+
+namespace scanworld::surface {
+
+namespace {
+
+// Along one line of cells: sets those no more than `reach` from one that has `value`, to `value`.
+void spread(std::uint8_t* cells, int count, std::size_t stride, int reach, std::uint8_t value,
+            std::vector<std::uint8_t>& line) {
+  line.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    line[static_cast<std::size_t>(i)] = cells[static_cast<std::size_t>(i) * stride];
+  int last = -reach - 1;  // the last cell with the value
+  for (int i = 0; i < count; ++i) {
+    if (line[static_cast<std::size_t>(i)] == value) last = i;
+    if (i - last <= reach) cells[static_cast<std::size_t>(i) * stride] = value;
+  }
+  last = count + reach;
+  for (int i = count - 1; i >= 0; --i) {
+    if (line[static_cast<std::size_t>(i)] == value) last = i;
+    if (last - i <= reach) cells[static_cast<std::size_t>(i) * stride] = value;
+  }
+}
+
+void spread(Raster& raster, int reach, std::uint8_t value) {
+  std::vector<std::uint8_t> line;
+  for (int y = 0; y < raster.height; ++y)
+    spread(&raster.bits[raster.index(0, y)], raster.width, 1, reach, value, line);
+  for (int x = 0; x < raster.width; ++x)
+    spread(&raster.bits[raster.index(x, 0)], raster.height, static_cast<std::size_t>(raster.width),
+           reach, value, line);
+}
+
+}  // namespace
+
+Raster grow(const Raster& raster, int reach) {
+  Raster grown = raster;
+  spread(grown, reach, 1);
+  return grown;
+}
+
+Raster close(const Raster& raster, int reach) {
+  Raster closed = raster;
+  spread(closed, reach, 1);
+  spread(closed, reach, 0);
+  return closed;
+}
+
+}  // namespace scanworld::surface

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "../types.h"
+
+namespace scanworld::surface {
+
+// Square cells of a plane, each of which is set or not.
+struct Raster {
+  Vec2 low = Vec2::Zero();  // [m] corner of the first cell
+  double cell = 0;          // [m] edge of a cell
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bits;  // row by row
+
+  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+  bool is_set(int x, int y) const { return contains(x, y) && bits[index(x, y)]; }
+  bool is_set(const Vec2& p) const {
+    const Vec2 q = (p - low) / cell;
+    return q.x() >= 0 && q.y() >= 0 && is_set(static_cast<int>(q.x()), static_cast<int>(q.y()));
+  }
+  Vec2 middle(int x, int y) const { return low + cell * Vec2(x + 0.5, y + 0.5); }
+  Vec2 high() const { return low + cell * Vec2(width, height); }
+};
+
+// Sets all cells no more than `reach` cells along both axes from one that is set.
+Raster grow(const Raster& raster, int reach);
+
+// Grows and shrinks by the same: gaps up to twice `reach` are closed, the outline stays.
+Raster close(const Raster& raster, int reach);
+
+}  // namespace scanworld::surface

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From planes to polygons that meet: where each plane has points, where planes meet, where they end
+// on their own, and the outline that fits best to all of it. docs/surfaces.md tells how.
+#pragma once
+
+#include "../options.h"
+#include "choose_cells.h"
+#include "free_edges.h"
+#include "seams.h"
+#include "shared_edges.h"
+#include "weld.h"
+
+namespace scanworld::surface {
+
+struct SurfaceOptions {
+  PatchOptions patch;
+  SeamOptions seams;
+  FreeEdgeOptions free_edges;
+  SharedEdgeOptions shared_edges;
+  ChoiceOptions choice;
+  WeldOptions weld;
+  double min_area = 0.02;  // [m2] smaller pieces and holes are left out
+};
+
+OptionList list_options(SurfaceOptions& options);
+
+// The lines that may cut each patch: its seams, the longest first.
+std::vector<std::vector<CutLine>> lines_of(const std::vector<Patch>& patches,
+                                           const std::vector<Seam>& seams,
+                                           const SeamOptions& options = {});
+
+// The free edges of all patches.
+std::vector<FreeEdge> find_free_edges(const PointCloud& cloud, const Members& members,
+                                      const std::vector<Patch>& patches,
+                                      const std::vector<std::vector<CutLine>>& lines,
+                                      const FreeEdgeOptions& options = {});
+
+// A piece of a patch, whose corners are told by planes: those of the patches, then those of the
+// free edges, then four around each patch.
+struct Pieces {
+  std::vector<Plane> planes;
+  std::vector<CornerPolygon> polygons;  // by patch
+};
+
+inline std::size_t count_of(const Pieces& pieces) { return pieces.polygons.size(); }
+
+Pieces outline_patches(const std::vector<Patch>& patches, std::vector<std::vector<CutLine>> lines,
+                       const std::vector<SharedEdge>& edges, const SurfaceOptions& options = {});
+
+}  // namespace scanworld::surface

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "../types.h"
+
+namespace scanworld::surface {
+
+// A corner of a polygon by the planes that meet there, so that all polygons there have the same.
+struct Corner {
+  std::array<int, 3> planes{};  // ascending
+  int next = 0;                 // of them, the one that the outline follows, beside the polygon's
+  Vec3 at = Vec3::Zero();
+};
+
+struct CornerPolygon {
+  int patch = 0;                           // whose plane it is in
+  std::vector<std::vector<Corner>> loops;  // the outer one first
+};
+
+// A polygon in a patch's plane: the outer loop first, counter-clockwise seen against the plane's
+// normal; the others are holes.
+struct Piece {
+  int patch = 0;
+  std::vector<std::vector<Vec3>> loops;
+};
+
+struct WeldOptions {
+  double same = 0.002;        // [m] corners nearer than this are one ...
+  double off_plane = 0.0005;  // [m] ... if that takes them no farther off their planes
+  double min_area = 1e-3;     // [m2] of a loop that is kept
+};
+
+// The polygons as points. Corners of the same planes are at the same point, where those meet; and
+// where a corner of one polygon lies on another's edge, that has a vertex there too.
+std::vector<Piece> weld(const std::vector<CornerPolygon>& polygons,
+                        const std::vector<Plane>& planes, const WeldOptions& options = {});
+
+}  // namespace scanworld::surface
