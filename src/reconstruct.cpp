@@ -47,35 +47,6 @@ double median_rms(const std::vector<FoundSurface>& surfaces) {
 // A scan with more than this is hardly one in metres.
 constexpr double kLargestNoise = 0.3, kLargestSpacing = 1.5;  // [m]
 
-// What the polygons are made of: points, the walls that they are in, and the length to measure by.
-struct Walls {
-  std::vector<Vec3> points;
-  std::vector<thesis::Cluster> clusters;
-  double delta = 0;  // [m]
-};
-
-// The last stages of the thesis, which make the polygons for both methods.
-std::vector<FoundSurface> make_polygons(const PointCloud& cloud, const Walls& walls,
-                                        const thesis::KdTree& tree,
-                                        const std::vector<std::int32_t>& labels,
-                                        const thesis::ThesisOptions& options, StageLog& log) {
-  using namespace thesis;
-  const auto fitted = log.run("Fitting to planes", "walls -> points", walls.clusters,
-                              [&] { return fit_to_planes(walls.points, walls.clusters); });
-  std::vector<Polygon> polygons = log.run("Finding polygons border", "points -> vertices", fitted,
-                                          [&] { return find_borders(fitted, walls.clusters); });
-  polygons = log.run("Polygons vertices fitting", "vertices -> vertices", polygons, [&] {
-    return snap_vertices(polygons, walls.clusters, tree, walls.delta, options.snapping);
-  });
-  polygons = log.run("Vertices reduction", "vertices -> vertices", polygons,
-                     [&] { return reduce_vertices(polygons, walls.delta, options.reduction); });
-  log.run("Triangulation", "vertices -> triangles", polygons,
-          [&] { return triangulate(polygons, walls.clusters); });
-  return log.run("Describing walls", "walls -> surfaces", walls.clusters, [&] {
-    return describe_walls(cloud, labels, walls.points, walls.delta, walls.clusters, polygons);
-  });
-}
-
 // The stages of the thesis, by the names in its Table 4, and what comes after them.
 std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
                                          const thesis::ThesisOptions& options, StageLog& log,
@@ -95,7 +66,19 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
   result.labels = log.run("Labelling points", "points -> points", cloud, [&] {
     return label_points(cloud, filtered, walls, tree, options.spreading.min_distance * delta);
   });
-  return make_polygons(cloud, {filtered.points, walls, delta}, tree, result.labels, options, log);
+  const auto fitted = log.run("Fitting to planes", "walls -> points", walls,
+                              [&] { return fit_to_planes(filtered.points, walls); });
+  std::vector<Polygon> polygons = log.run("Finding polygons border", "points -> vertices", fitted,
+                                          [&] { return find_borders(fitted, walls); });
+  polygons = log.run("Polygons vertices fitting", "vertices -> vertices", polygons,
+                     [&] { return snap_vertices(polygons, walls, tree, delta, options.snapping); });
+  polygons = log.run("Vertices reduction", "vertices -> vertices", polygons,
+                     [&] { return reduce_vertices(polygons, delta, options.reduction); });
+  log.run("Triangulation", "vertices -> triangles", polygons,
+          [&] { return triangulate(polygons, walls); });
+  return log.run("Describing walls", "walls -> surfaces", walls, [&] {
+    return describe_walls(cloud, result.labels, filtered.points, delta, walls, polygons);
+  });
 }
 
 // Gives the points of each plane to its first piece, and what is known of the plane to all of them.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "support/patches.h"
+#include "surface/inside.h"
 
 using namespace scanworld;
 using namespace scanworld::test;
@@ -76,16 +77,12 @@ bool is_covered(const std::vector<Piece>& pieces, const Vec3& p, const Vec3& nor
     own.normalize();
     if (std::abs(own.dot(normal)) < 0.99 || std::abs(own.dot(p - outer[0])) > 0.05) return false;
     const PlaneFrame frame = frame_of(plane_through(outer[0], own));
-    const Vec2 q = frame.to_plane(p);
-    bool inside = false;
-    for (const auto& loop : piece.loops)
-      for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-        const Vec2 a = frame.to_plane(loop[i]), b = frame.to_plane(loop[j]);
-        if ((a.y() > q.y()) != (b.y() > q.y()) &&
-            q.x() < a.x() + (b.x() - a.x()) * (q.y() - a.y()) / (b.y() - a.y()))
-          inside = !inside;
-      }
-    return inside;
+    std::vector<std::vector<Vec2>> loops;
+    for (const auto& loop : piece.loops) {
+      loops.emplace_back();
+      for (const Vec3& v : loop) loops.back().push_back(frame.to_plane(v));
+    }
+    return is_inside(loops, frame.to_plane(p));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../parallel.h"
+#include "inside.h"
 
 namespace scanworld::surface {
 
@@ -16,19 +17,7 @@ struct FlatPolygon {
   std::vector<std::vector<Vec2>> loops;
   Eigen::AlignedBox2d box;
 
-  // By the number of edges to the right (the even-odd rule).
-  bool contains(const Vec2& p) const {
-    if (!box.contains(p)) return false;
-    bool inside = false;
-    for (const auto& loop : loops)
-      for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-        const Vec2 &a = loop[i], &b = loop[j];
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-          inside = !inside;
-      }
-    return inside;
-  }
+  bool contains(const Vec2& p) const { return box.contains(p) && is_inside(loops, p); }
 };
 
 FlatPolygon flatten(const PlaneFrame& frame, const Piece& piece) {

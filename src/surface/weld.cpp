@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "../parallel.h"
+#include "inside.h"
 #include "trace_loops.h"
 
 namespace scanworld::surface {
@@ -25,18 +26,12 @@ double area_of(const std::vector<Vec3>& loop, const Vec3& normal) {
   return 0.5 * normal.dot(sum);
 }
 
-// Whether the middle of the hole's first edge is in the loop, or on it (the even-odd rule).
+// Whether the middle of the hole's first edge is in the loop, or on it.
 bool is_around(const std::vector<Vec3>& loop, const std::vector<Vec3>& hole,
                const PlaneFrame& frame) {
-  const Vec2 p = frame.to_plane((hole[0] + hole[1]) / 2);
-  bool inside = false;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-    const Vec2 a = frame.to_plane(loop[i]), b = frame.to_plane(loop[j]);
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
+  std::vector<Vec2> flat;
+  for (const Vec3& v : loop) flat.push_back(frame.to_plane(v));
+  return is_inside({flat}, frame.to_plane((hole[0] + hole[1]) / 2));
 }
 
 class Welder {
@@ -108,8 +103,7 @@ class Welder {
                    &q = at_[static_cast<std::size_t>(order[k])];
         if (q.x() - p.x() > options_.same) break;
         if ((q - p).norm() > options_.same) continue;
-        const std::pair<int, int> joint = std::minmax({name(order[i]), name(order[k])});
-        const auto [a, b] = joint;
+        const auto [a, b] = std::minmax({name(order[i]), name(order[k])});
         if (a == b || !is_in_planes(b, at_[static_cast<std::size_t>(a)])) continue;
         joined_[static_cast<std::size_t>(b)] = a;
         auto &all = planes_of_[static_cast<std::size_t>(a)],
