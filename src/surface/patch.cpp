@@ -119,13 +119,10 @@ class PatchMaker {
  private:
   void rasterize(Patch& patch) {
     Eigen::AlignedBox2d extent;
-    std::vector<Vec2> points;
-    points.reserve(members_.size());
     for (std::uint32_t i : members_) {
       const Vec3 p = cloud_.points[i].cast<double>();
       patch.box.extend(p);
-      points.push_back(patch.frame.to_plane(p));
-      extent.extend(points.back());
+      extent.extend(patch.frame.to_plane(p));
     }
     Raster& hit = patch.hit;
     hit.cell = cell_;
@@ -141,8 +138,8 @@ class PatchMaker {
     count_.assign(count, 0);
     // In whole parts of a cell, as the points come in any order.
     std::vector<std::array<std::uint32_t, 2>> sum(count);
-    for (const Vec2& p : points) {
-      const Vec2 q = (p - hit.low) / cell_;
+    for (std::uint32_t member : members_) {
+      const Vec2 q = (patch.frame.to_plane(cloud_.points[member].cast<double>()) - hit.low) / cell_;
       const int x = static_cast<int>(q.x()), y = static_cast<int>(q.y());
       const std::size_t i = hit.index(x, y);
       hit.bits[i] = 1, ++count_[i];
