@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,18 @@ using Vec3 = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 using Box3 = Eigen::AlignedBox3d;
+
+// The box, larger by a margin to all sides.
+inline Box3 grown(const Box3& box, double margin) {
+  return {box.min().array() - margin, box.max().array() + margin};
+}
+
+// The one of some points, at least one, that is nearest to p; the first of equal ones.
+inline const Vec3& nearest_of(const std::vector<Vec3>& points, const Vec3& p) {
+  return *std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - p).squaredNorm() < (b - p).squaredNorm();
+  });
+}
 
 struct Color {
   std::uint8_t r = 0, g = 0, b = 0;

@@ -20,7 +20,7 @@ TEST_CASE("cells are convex, fill the rectangle and share their sides") {
       for (std::size_t k = 0; k < cell.sides.size(); ++k) {
         const auto& side = cell.sides[k];
         CHECK(side.to == cell.sides[(k + 1) % cell.sides.size()].from);
-        const auto at = [&](int v) { return arrangement.vertices[static_cast<std::size_t>(v)].at; };
+        const auto at = [&](int v) { return arrangement.vertices[static_cast<std::size_t>(v)]; };
         const Vec2 a = at(side.to) - at(side.from),
                    b = at(cell.sides[(k + 1) % cell.sides.size()].to) - at(side.to);
         CHECK(a.x() * b.y() - a.y() * b.x() > -1e-6);

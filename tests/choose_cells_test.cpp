@@ -26,10 +26,9 @@ TEST_CASE("the cells that are chosen have the lowest price of all choices") {
         if (!chosen[c]) continue;
         for (const auto& side : cell.sides)
           if (side.across < 0 || !chosen[static_cast<std::size_t>(side.across)])
-            sum +=
-                options.open_price * (arrangement.vertices[static_cast<std::size_t>(side.to)].at -
-                                      arrangement.vertices[static_cast<std::size_t>(side.from)].at)
-                                         .norm();
+            sum += options.open_price * (arrangement.vertices[static_cast<std::size_t>(side.to)] -
+                                         arrangement.vertices[static_cast<std::size_t>(side.from)])
+                                            .norm();
       }
       return sum;
     };

@@ -4,8 +4,8 @@
 
 #include <map>
 
+#include "polygon.h"
 #include "support/patches.h"
-#include "surface/inside.h"
 
 using namespace scanworld;
 using namespace scanworld::test;

@@ -20,8 +20,7 @@ std::vector<Box3> reaches_of(const Grid& grid,
   std::vector<Box3> boxes(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
     for (std::uint32_t i : members[k]) boxes[k].extend(grid.sites[i].position());
-    if (!boxes[k].isEmpty())
-      boxes[k] = Box3(boxes[k].min().array() - gap, boxes[k].max().array() + gap);
+    if (!boxes[k].isEmpty()) boxes[k] = grown(boxes[k], gap);
   }
   return boxes;
 }

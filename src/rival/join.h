@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../disjoint_sets.h"
 #include "cluster.h"
-#include "disjoint_sets.h"
 #include "scale.h"
 
 namespace scanworld::rival {

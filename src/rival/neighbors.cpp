@@ -13,10 +13,10 @@ namespace {
 
 // A block's voxels and those around it, laid out as one cube, so that what is near a voxel is found
 // without asking which block it is in.
-class Surroundings {
+class VoxelCube {
  public:
   // `reach`: [voxels] around the block, at most 8.
-  Surroundings(const Grid& grid, int reach)
+  VoxelCube(const Grid& grid, int reach)
       : grid_(grid),
         pad_(reach),
         width_(8 + 2 * reach),
@@ -97,7 +97,7 @@ class Surroundings {
 
 // Appends the neighbours of site i to a list.
 void add_neighbors(const Grid& grid, std::size_t i, const NeighborOptions& options,
-                   const std::vector<std::uint8_t>& only, Surroundings& surroundings,
+                   const std::vector<std::uint8_t>& only, VoxelCube& cube,
                    std::vector<std::uint32_t>& list) {
   const std::int32_t separator = grid.separator.empty() ? -1 : grid.separator[i];
   const Plane* const between =
@@ -119,7 +119,7 @@ void add_neighbors(const Grid& grid, std::size_t i, const NeighborOptions& optio
     list.push_back(j);
   };
   for (int reach = 1; reach <= options.max_reach && !is_enough(); ++reach)
-    for (const auto& cell : surroundings.find_near(i, reach, reach > 1 ? reach - 1 : -1)) {
+    for (const auto& cell : cube.find_near(i, reach, reach > 1 ? reach - 1 : -1)) {
       add(cell.site, cell.points);
       if (cell.twin < 0) continue;
       const auto twin = static_cast<std::uint32_t>(cell.twin);
@@ -157,10 +157,10 @@ Neighbors find_neighbors(const Grid& grid, const NeighborOptions& options,
   Neighbors result;
   result.parts.resize(part_count(count, Neighbors::kPart));
   parallel_for(result.parts.size(), [&](std::size_t p) {
-    Surroundings surroundings(grid, options.max_reach);
+    VoxelCube cube(grid, options.max_reach);
     result.parts[p] =
         make_part(part_of(p, count, Neighbors::kPart), [&](std::size_t i, auto& list) {
-          if (only.empty() || only[i]) add_neighbors(grid, i, options, only, surroundings, list);
+          if (only.empty() || only[i]) add_neighbors(grid, i, options, only, cube, list);
         });
   });
   return result;
@@ -184,11 +184,11 @@ Neighbors update_neighbors(const Grid& grid, const NeighborOptions& options, Nei
     const bool is_same =
         end <= old && std::none_of(changed.begin() + static_cast<long>(begin),
                                    changed.begin() + static_cast<long>(end), is_changed);
-    Surroundings surroundings(grid, options.max_reach);
+    VoxelCube cube(grid, options.max_reach);
     result.parts[p] = is_same ? std::move(before.parts[p])
                               : make_part({begin, end}, [&](std::size_t i, auto& list) {
                                   if (changed[i])
-                                    return add_neighbors(grid, i, options, {}, surroundings, list);
+                                    return add_neighbors(grid, i, options, {}, cube, list);
                                   const auto same = before.of(i);
                                   list.insert(list.end(), same.begin(), same.end());
                                 });

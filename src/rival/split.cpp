@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "../disjoint_sets.h"
 #include "../parallel.h"
 #include "crossing.h"
-#include "disjoint_sets.h"
 
 namespace scanworld::rival {
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "../disjoint_sets.h"
+
 namespace scanworld::surface {
 
 namespace {
@@ -67,9 +69,8 @@ class Arranger {
       const Vec2 &from = corners[static_cast<std::size_t>(k)],
                  &to = corners[static_cast<std::size_t>((k + 1) % 4)];
       lines_.push_back({from, (to - from).normalized(), 0, {}});
-      const int before = n + (k + 3) % 4, own = n + k;
-      vertices_.push_back({from, std::min(before, own), std::max(before, own)});
-      face.vertices.push_back(k), face.lines.push_back(own);
+      vertices_.push_back(from);
+      face.vertices.push_back(k), face.lines.push_back(n + k);
     }
     face.raster.resize(raster.bits.size());
     for (std::size_t i = 0; i < face.raster.size(); ++i)
@@ -80,8 +81,7 @@ class Arranger {
   int vertex_on(int line, const Vec2& p, const Vec2& q, double off_p, double off_q, int cutter) {
     const auto key = std::minmax(line, cutter);
     const auto [found, is_new] = crossing_.try_emplace(key, static_cast<int>(vertices_.size()));
-    if (is_new)
-      vertices_.push_back({p + (q - p) * (off_p / (off_p - off_q)), key.first, key.second});
+    if (is_new) vertices_.push_back(p + (q - p) * (off_p / (off_p - off_q)));
     return found->second;
   }
 
@@ -92,29 +92,33 @@ class Arranger {
       std::vector<double> off;
       bool before = false, behind = false;
       for (int v : faces_[f].vertices) {
-        off.push_back(line.off(vertices_[static_cast<std::size_t>(v)].at));
+        off.push_back(line.off(vertices_[static_cast<std::size_t>(v)]));
         before |= off.back() > kSame, behind |= off.back() < -kSame;
       }
       if (before && behind) split(f, cutter, line, off);
     }
   }
 
+  const Vec2& at(int vertex) const { return vertices_[static_cast<std::size_t>(vertex)]; }
+
+  // Where the line goes in and out of a face.
+  Interval chord_of(const Face& face, const Line2& line, const std::vector<double>& off) const {
+    Interval chord{1e9, -1e9};
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      const std::size_t next = (k + 1) % off.size();
+      const double a = off[k], b = off[next];
+      const Vec2 &from = at(face.vertices[k]), &to = at(face.vertices[next]);
+      const bool is_on = std::abs(a) <= kSame;
+      if (!is_on && (std::abs(b) <= kSame || (a > 0) == (b > 0))) continue;
+      const double t = line.t(is_on ? from : from + (to - from) * (a / (a - b)));
+      chord = {std::min(chord.low, t), std::max(chord.high, t)};
+    }
+    return chord;
+  }
+
   void split(std::size_t f, int cutter, const Line2& line, const std::vector<double>& off) {
     const std::size_t n = off.size();
-    // Where the line goes in and out, to know its chord before anything is made.
-    Interval chord{1e9, -1e9};
-    const auto at = [&](std::size_t k) -> const Vec2& {
-      return vertices_[static_cast<std::size_t>(faces_[f].vertices[k % n])].at;
-    };
-    for (std::size_t k = 0; k < n; ++k) {
-      const double a = off[k], b = off[(k + 1) % n];
-      if (std::abs(a) <= kSame) {
-        chord = {std::min(chord.low, line.t(at(k))), std::max(chord.high, line.t(at(k)))};
-      } else if (std::abs(b) > kSame && (a > 0) != (b > 0)) {
-        const double t = line.t(at(k) + (at(k + 1) - at(k)) * (a / (a - b)));
-        chord = {std::min(chord.low, t), std::max(chord.high, t)};
-      }
-    }
+    const Interval chord = chord_of(faces_[f], line, off);
     if (std::min(chord.high, line.reach.high) - std::max(chord.low, line.reach.low) < kMinChord)
       return;
     Face sides[2];  // before and behind the line
@@ -129,21 +133,13 @@ class Arranger {
       const int sa = side_of(a), sb = side_of(b);
       if (sa == 2) {
         // On the line: where the edge goes to one side, the other one goes along the line.
-        if (sb != 1)
-          add(sides[0], v, sb == 2 ? cutter : own);
-        else
-          add(sides[0], v, cutter);
-        if (sb != 0)
-          add(sides[1], v, sb == 2 ? cutter : own);
-        else
-          add(sides[1], v, cutter);
+        add(sides[0], v, sb == 0 ? own : cutter);
+        add(sides[1], v, sb == 1 ? own : cutter);
         continue;
       }
       add(sides[sa], v, own);
       if (sb == 2 || sb == sa) continue;
-      const int crossing = vertex_on(
-          own, vertices_[static_cast<std::size_t>(v)].at,
-          vertices_[static_cast<std::size_t>(face.vertices[(k + 1) % n])].at, a, b, cutter);
+      const int crossing = vertex_on(own, at(v), at(face.vertices[(k + 1) % n]), a, b, cutter);
       add(sides[sa], crossing, cutter);
       add(sides[sb], crossing, own);
     }
@@ -160,30 +156,25 @@ class Arranger {
 
   // Vertices at one place on a line are made one.
   void join_vertices() {
-    joined_.resize(vertices_.size());
-    for (std::size_t i = 0; i < joined_.size(); ++i) joined_[i] = static_cast<int>(i);
+    joined_ = DisjointSets(vertices_.size());
     on_line_.resize(lines_.size());
     for (const Face& face : faces_)
       for (std::size_t k = 0; k < face.vertices.size(); ++k) {
         auto& on = on_line_[static_cast<std::size_t>(face.lines[k])];
         for (int v : {face.vertices[k], face.vertices[(k + 1) % face.vertices.size()]})
           on.push_back({lines_[static_cast<std::size_t>(face.lines[k])].t(
-                            vertices_[static_cast<std::size_t>(v)].at),
+                            vertices_[static_cast<std::size_t>(v)]),
                         v});
       }
     for (auto& on : on_line_) {
       std::sort(on.begin(), on.end());
       for (std::size_t k = 1; k < on.size(); ++k)
-        if (on[k].first - on[k - 1].first < 2 * kSame) {
-          const int a = name(on[k - 1].second), b = name(on[k].second);
-          joined_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-        }
+        if (on[k].first - on[k - 1].first < 2 * kSame)
+          joined_.unite(static_cast<std::size_t>(on[k - 1].second),
+                        static_cast<std::size_t>(on[k].second));
     }
   }
-  int name(int v) const {
-    while (joined_[static_cast<std::size_t>(v)] != v) v = joined_[static_cast<std::size_t>(v)];
-    return v;
-  }
+  int name(int v) { return static_cast<int>(joined_.find(static_cast<std::size_t>(v))); }
 
   Arrangement::Cell make_cell(const Face& face) {
     Arrangement::Cell cell;
@@ -191,13 +182,9 @@ class Arranger {
       const int line = face.lines[k];
       const auto& on = on_line_[static_cast<std::size_t>(line)];
       const Line2& l = lines_[static_cast<std::size_t>(line)];
-      const int from = name(face.vertices[k]),
-                to = name(face.vertices[(k + 1) % face.vertices.size()]);
-      const double
-          t_from = l.t(vertices_[static_cast<std::size_t>(face.vertices[k])].at),
-          t_to =
-              l.t(vertices_[static_cast<std::size_t>(face.vertices[(k + 1) % face.vertices.size()])]
-                      .at);
+      const int start = face.vertices[k], end = face.vertices[(k + 1) % face.vertices.size()];
+      const int from = name(start), to = name(end);
+      const double t_from = l.t(at(start)), t_to = l.t(at(end));
       std::vector<int> chain = {from};
       const auto step = [&](const std::pair<double, int>& e) {
         const int v = name(e.second);
@@ -239,11 +226,11 @@ class Arranger {
 
   const Patch& patch_;
   std::vector<Line2> lines_;
-  std::vector<Arrangement::Vertex> vertices_;
+  std::vector<Vec2> vertices_;
   std::vector<Face> faces_;
   std::vector<char> unclear_;  // cells with points, so near to a seam that they are on either side
   std::map<std::pair<int, int>, int> crossing_;  // by lines
-  std::vector<int> joined_;
+  DisjointSets joined_{0};
   std::vector<std::vector<std::pair<double, int>>> on_line_;  // t and vertex, ascending
 };
 

@@ -12,10 +12,6 @@ namespace scanworld::surface {
 // A patch's rectangle cut into convex cells by lines. Where sides of cells overlap they are
 // divided, so that each side has one cell across it, or none at the rectangle's border.
 struct Arrangement {
-  struct Vertex {
-    Vec2 at;
-    int a, b;  // lines that meet there, a < b; the four of the rectangle come after the others
-  };
   struct Side {
     int from, to;  // vertices; the cell is to the left
     int line;
@@ -25,7 +21,7 @@ struct Arrangement {
     std::vector<Side> sides;        // counter-clockwise
     double covered = 0, empty = 0;  // [m2] of evidence for and against
   };
-  std::vector<Vertex> vertices;
+  std::vector<Vec2> vertices;
   std::vector<Cell> cells;
 };
 

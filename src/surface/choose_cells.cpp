@@ -20,8 +20,8 @@ double overlap(const std::vector<Interval>& list, const Interval& t) {
 double price_of(const Arrangement& arrangement, const Arrangement::Side& side,
                 const std::vector<CutLine>& lines, const Interval& t,
                 const ChoiceOptions& options) {
-  const double length = (arrangement.vertices[static_cast<std::size_t>(side.to)].at -
-                         arrangement.vertices[static_cast<std::size_t>(side.from)].at)
+  const double length = (arrangement.vertices[static_cast<std::size_t>(side.to)] -
+                         arrangement.vertices[static_cast<std::size_t>(side.from)])
                             .norm();
   if (static_cast<std::size_t>(side.line) >= lines.size()) return options.open_price * length;
   const CutLine& line = lines[static_cast<std::size_t>(side.line)];
@@ -93,7 +93,7 @@ std::vector<char> choose_cells(const Arrangement& arrangement, const std::vector
       if (side.across >= 0 && side.across < own) continue;
       const auto t = [&](int v) {
         if (static_cast<std::size_t>(side.line) >= lines.size()) return 0.0;
-        const Vec3 p = frame.to_space(arrangement.vertices[static_cast<std::size_t>(v)].at);
+        const Vec3 p = frame.to_space(arrangement.vertices[static_cast<std::size_t>(v)]);
         return lines[static_cast<std::size_t>(side.line)].line.direction.dot(p);
       };
       const double from = t(side.from), to = t(side.to);

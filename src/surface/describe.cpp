@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "../parallel.h"
-#include "inside.h"
+#include "../point_sums.h"
+#include "../polygon.h"
 
 namespace scanworld::surface {
 
@@ -55,23 +56,10 @@ FoundSurface describe(const PointCloud& cloud, std::span<const std::uint32_t> me
   FoundSurface surface{.plane = patch.plane,
                        .outer = piece.loops[0],
                        .holes = {piece.loops.begin() + 1, piece.loops.end()}};
-  std::uint64_t square_um = 0;  // [um2] of the distances from the plane, in whole numbers
-  std::array<std::uint64_t, 3> color{};
-  for (std::uint32_t i : members) {
-    const auto um = static_cast<std::uint64_t>(
-        std::abs(patch.plane.signed_distance(cloud.points[i].cast<double>())) * 1e6 + 0.5);
-    square_um += um * um;
-    if (cloud.colors.empty()) continue;
-    const Color& c = cloud.colors[i];
-    color[0] += c.r, color[1] += c.g, color[2] += c.b;
-  }
-  const double n = static_cast<double>(std::max<std::size_t>(1, members.size()));
-  surface.support = {members.size(), std::sqrt(static_cast<double>(square_um) / n) * 1e-6,
-                     coverage(patch, polygon)};
-  const auto mean = [&](std::size_t k) {
-    return static_cast<std::uint8_t>(static_cast<double>(color[k]) / n + 0.5);
-  };
-  if (!cloud.colors.empty()) surface.color = Color{mean(0), mean(1), mean(2)};
+  PointSums sums;
+  for (std::uint32_t i : members) sums.add(cloud, i, patch.plane);
+  sums.describe(cloud, surface);
+  surface.support.coverage = coverage(patch, polygon);
   return surface;
 }
 

@@ -59,7 +59,7 @@ std::vector<Outline> trace_outlines(const Arrangement& arrangement,
     outlines[k].covered += cell.covered, outlines[k].empty += cell.empty;
     for (const Side& side : cell.sides) sides[k].push_back({side.from, side.to, side.line});
   }
-  const auto at = [&](int v) { return arrangement.vertices[static_cast<std::size_t>(v)].at; };
+  const auto at = [&](int v) { return arrangement.vertices[static_cast<std::size_t>(v)]; };
   for (std::size_t k = 0; k < outlines.size(); ++k)
     for (const auto& loop : trace_loops(sides[k], at))
       if (Outline::Loop corners = corners_of(sides[k], loop); corners.size() >= 3)

@@ -49,8 +49,7 @@ Surroundings surroundings_of(std::vector<Vec3f> points, std::vector<std::int32_t
 namespace {
 
 constexpr std::size_t kFacingStep = 8;  // one of so many is enough to tell the free side
-
-constexpr double kLeastSeen = 0.15;  // share of cells with points, of the sparsest surface
+constexpr double kLeastSeen = 0.15;     // share of cells with points, of the sparsest surface
 
 // Points a cell: those in all cells, or, where they are in a part of them only, as dense as there.
 // Points that come by chance at a mean m hit 1 - exp(-m) of the cells.
@@ -106,11 +105,9 @@ class PatchMaker {
     Patch patch{.plane = plane, .frame = frame_of(plane)};
     if (members_.empty()) return patch;
     rasterize(patch);
-    patch.covered = close(patch.hit, gap_of(patch.hit));
     if (is_from_behind(patch)) {
       patch = {.plane = plane.flipped(), .frame = frame_of(plane.flipped())};
       rasterize(patch);
-      patch.covered = close(patch.hit, gap_of(patch.hit));
     }
     weigh(patch);
     return patch;
@@ -155,6 +152,7 @@ class PatchMaker {
         const Vec2 within = Vec2(sum[i][0], sum[i][1]) / (256.0 * count_[i]);
         patch.middle[i] = hit.low + cell_ * (Vec2(x, y) + within);
       }
+    patch.covered = close(hit, gap_of(hit));
   }
 
   // [cells] half of the widest gap that is to be expected between points.
@@ -167,8 +165,7 @@ class PatchMaker {
   // Calls body(distance, where, plane) for what is around the patch, up to a depth.
   template <typename Body>
   void look(const Patch& patch, double depth, const Body& body, std::size_t step = 1) const {
-    const Eigen::AlignedBox3f reach((patch.box.min().array() - depth).cast<float>().matrix(),
-                                    (patch.box.max().array() + depth).cast<float>().matrix());
+    const Eigen::AlignedBox3f reach = grown(patch.box, depth).cast<float>();
     for (std::size_t run = 0; run < around_.boxes.size(); ++run) {
       if (!reach.intersects(around_.boxes[run])) continue;
       const std::size_t begin = run * Surroundings::kRun;
@@ -182,14 +179,8 @@ class PatchMaker {
   }
 
   bool is_from_behind(const Patch& patch) const {
-    if (!cloud_.viewpoints.empty()) {
-      const Vec3 middle = patch.box.center();
-      const auto nearest = std::min_element(
-          cloud_.viewpoints.begin(), cloud_.viewpoints.end(), [&](const Vec3& a, const Vec3& b) {
-            return (a - middle).squaredNorm() < (b - middle).squaredNorm();
-          });
-      return patch.plane.signed_distance(*nearest) < 0;
-    }
+    if (!cloud_.viewpoints.empty())
+      return patch.plane.signed_distance(nearest_of(cloud_.viewpoints, patch.box.center())) < 0;
     if (!cloud_.normals.empty()) {
       std::int64_t along = 0;
       for (std::uint32_t i : members_)
@@ -221,12 +212,13 @@ class PatchMaker {
     return ground;
   }
 
-  // The cells that something stands before.
+  // Whether what belongs to a plane, or to none, hides what is behind it.
   bool may_hide(std::int32_t plane, const Plane& patch) const {
     return plane < 0 ||
            std::abs(planes_[static_cast<std::size_t>(plane)].normal.dot(patch.normal)) >
                options_.shadow_cosine;
   }
+  // The cells that something stands before.
   Raster find_shadow(const Patch& patch) const {
     Raster shadow = empty_like(patch.hit);
     look(patch, options_.shadow_depth, [&](double distance, const Vec2& p, std::int32_t plane) {
@@ -263,10 +255,9 @@ class PatchMaker {
 
   // Gives squares without points the mean of those around that have some, farther and farther.
   static void fill_gaps(std::vector<float>& values, int width, int height) {
-    for (bool is_left = true; is_left;) {
-      is_left = false;
+    for (bool any = true; any;) {
+      any = false;
       const std::vector<float> before = values;
-      bool any = false;
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
           const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -280,12 +271,8 @@ class PatchMaker {
                                      static_cast<std::size_t>(a)];
               if (v > 0) sum += v, ++count;
             }
-          if (count > 0)
-            values[i] = sum / static_cast<float>(count), any = true;
-          else
-            is_left = true;
+          if (count > 0) values[i] = sum / static_cast<float>(count), any = true;
         }
-      if (!any) return;
     }
   }
 

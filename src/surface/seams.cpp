@@ -56,15 +56,12 @@ std::vector<Seam> find_seams(const std::vector<Patch>& patches, const SeamOption
   std::vector<std::vector<Seam>> found(patches.size());
   parallel_for(patches.size(), [&](std::size_t a) {
     if (near[a].bits.empty()) return;
-    const Box3 reach(patches[a].box.min().array() - options.gap,
-                     patches[a].box.max().array() + options.gap);
+    const Box3 reach = grown(patches[a].box, options.gap);
     for (std::size_t b = a + 1; b < patches.size(); ++b) {
       if (near[b].bits.empty() || !reach.intersects(patches[b].box)) continue;
       const auto line = intersect(patches[a].plane, patches[b].plane, options.min_sine);
       if (!line) continue;
-      const Box3 other(patches[b].box.min().array() - options.gap,
-                       patches[b].box.max().array() + options.gap);
-      const Interval range = clip(*line, reach.intersection(other));
+      const Interval range = clip(*line, reach.intersection(grown(patches[b].box, options.gap)));
       if (range.length() <= 0) continue;
       std::vector<Interval> seen =
           find_common(*line, range, patches[a], near[a], patches[b], near[b]);

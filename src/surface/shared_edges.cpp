@@ -4,16 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "../disjoint_sets.h"
 
 namespace scanworld::surface {
 
 namespace {
 
-Box3 box_of(const FreeEdge& e, double margin) {
+Box3 box_of(const FreeEdge& e) {
   Box3 box(e.from);
-  box.extend(e.to);
-  return {box.min().array() - margin, box.max().array() + margin};
+  return box.extend(e.to);
 }
 
 // Whether two edges are parts of one: their planes are nearly one, and they run side by side.
@@ -69,22 +69,16 @@ std::vector<SharedEdge> share_edges(const std::vector<FreeEdge>& edges,
                                     const std::vector<Patch>& patches,
                                     const std::vector<Seam>& seams,
                                     const SharedEdgeOptions& options) {
-  std::vector<std::size_t> group_of(edges.size());
-  std::iota(group_of.begin(), group_of.end(), std::size_t{0});
-  std::vector<std::vector<std::size_t>> groups(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) groups[i] = {i};
+  DisjointSets sets(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Box3 near = box_of(edges[i], options.max_gap);
-    for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      if (group_of[i] == group_of[j] || !near.intersects(box_of(edges[j], 0)) ||
-          !are_one(edges[i], edges[j], options))
-        continue;
-      const std::size_t a = std::min(group_of[i], group_of[j]),
-                        b = std::max(group_of[i], group_of[j]);
-      for (std::size_t k : groups[b]) group_of[k] = a, groups[a].push_back(k);
-      groups[b].clear();
-    }
+    const Box3 near = grown(box_of(edges[i]), options.max_gap);
+    for (std::size_t j = i + 1; j < edges.size(); ++j)
+      if (!sets.are_joined(i, j) && near.intersects(box_of(edges[j])) &&
+          are_one(edges[i], edges[j], options))
+        sets.unite(i, j);
   }
+  std::vector<std::vector<std::size_t>> groups(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) groups[sets.find(i)].push_back(i);
   std::vector<std::vector<const Seam*>> seams_of(patches.size());
   for (const Seam& seam : seams)
     for (int patch : {seam.a, seam.b}) seams_of[static_cast<std::size_t>(patch)].push_back(&seam);

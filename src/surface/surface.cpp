@@ -84,7 +84,7 @@ std::vector<CornerPolygon> outline(const Patch& patch, int own, int first_frame,
         const int next = plane_of(loop[k].line);
         std::array<int, 3> planes = {own, before, next};
         std::sort(planes.begin(), planes.end());
-        const Vec2& at = arrangement.vertices[static_cast<std::size_t>(loop[k].vertex)].at;
+        const Vec2& at = arrangement.vertices[static_cast<std::size_t>(loop[k].vertex)];
         corners.push_back({planes, next, patch.frame.to_space(at)});
       }
       polygon.loops.push_back(std::move(corners));

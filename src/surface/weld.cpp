@@ -8,8 +8,9 @@
 #include <map>
 #include <numeric>
 
+#include "../disjoint_sets.h"
 #include "../parallel.h"
-#include "inside.h"
+#include "../polygon.h"
 #include "trace_loops.h"
 
 namespace scanworld::surface {
@@ -18,20 +19,16 @@ namespace {
 
 constexpr double kMinDeterminant = 0.05;  // of three normals whose planes meet in a clear point
 
-// Positive where the loop is counter-clockwise seen against the normal.
-double area_of(const std::vector<Vec3>& loop, const Vec3& normal) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    sum += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-  return 0.5 * normal.dot(sum);
+std::vector<Vec2> flatten(const std::vector<Vec3>& loop, const PlaneFrame& frame) {
+  std::vector<Vec2> flat;
+  for (const Vec3& v : loop) flat.push_back(frame.to_plane(v));
+  return flat;
 }
 
 // Whether the middle of the hole's first edge is in the loop, or on it.
 bool is_around(const std::vector<Vec3>& loop, const std::vector<Vec3>& hole,
                const PlaneFrame& frame) {
-  std::vector<Vec2> flat;
-  for (const Vec3& v : loop) flat.push_back(frame.to_plane(v));
-  return is_inside({flat}, frame.to_plane((hole[0] + hole[1]) / 2));
+  return is_inside({flatten(loop, frame)}, frame.to_plane((hole[0] + hole[1]) / 2));
 }
 
 class Welder {
@@ -46,7 +43,7 @@ class Welder {
     for (const auto& [key, v] : index_)
       for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}})
         on_line_[{key[static_cast<std::size_t>(a)], key[static_cast<std::size_t>(b)]}].push_back(
-            name(v));
+            name_[static_cast<std::size_t>(v)]);
     for (auto& [line, list] : on_line_) {
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -90,40 +87,36 @@ class Welder {
 
   // Corners that are nearly one become the first of them.
   void join() {
-    joined_.resize(at_.size());
-    std::iota(joined_.begin(), joined_.end(), 0);
-    std::vector<int> order = joined_;
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-      const Vec3 &p = at_[static_cast<std::size_t>(a)], &q = at_[static_cast<std::size_t>(b)];
+    DisjointSets sets(at_.size());
+    std::vector<std::size_t> order(at_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const Vec3 &p = at_[a], &q = at_[b];
       return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
     });
     for (std::size_t i = 0; i < order.size(); ++i)
       for (std::size_t k = i + 1; k < order.size(); ++k) {
-        const Vec3 &p = at_[static_cast<std::size_t>(order[i])],
-                   &q = at_[static_cast<std::size_t>(order[k])];
+        const Vec3 &p = at_[order[i]], &q = at_[order[k]];
         if (q.x() - p.x() > options_.same) break;
         if ((q - p).norm() > options_.same) continue;
-        const auto [a, b] = std::minmax({name(order[i]), name(order[k])});
-        if (a == b || !is_in_planes(b, at_[static_cast<std::size_t>(a)])) continue;
-        joined_[static_cast<std::size_t>(b)] = a;
-        auto &all = planes_of_[static_cast<std::size_t>(a)],
-             &more = planes_of_[static_cast<std::size_t>(b)];
-        all.insert(all.end(), more.begin(), more.end());
+        const auto [a, b] = std::minmax({sets.find(order[i]), sets.find(order[k])});
+        if (a == b || !is_in_planes(b, at_[a])) continue;
+        sets.unite(a, b);
+        planes_of_[a].insert(planes_of_[a].end(), planes_of_[b].begin(), planes_of_[b].end());
       }
+    for (std::size_t v = 0; v < at_.size(); ++v) name_.push_back(static_cast<int>(sets.find(v)));
   }
   // Whether a point is near enough to all planes that meet in a corner.
-  bool is_in_planes(int corner, const Vec3& p) const {
-    const auto& list = planes_of_[static_cast<std::size_t>(corner)];
+  bool is_in_planes(std::size_t corner, const Vec3& p) const {
+    const auto& list = planes_of_[corner];
     return std::all_of(list.begin(), list.end(), [&](int plane) {
       return std::abs(planes_[static_cast<std::size_t>(plane)].signed_distance(p)) <
              options_.off_plane;
     });
   }
-  int name(int v) const {
-    while (joined_[static_cast<std::size_t>(v)] != v) v = joined_[static_cast<std::size_t>(v)];
-    return v;
+  int vertex_of(const Corner& corner) const {
+    return name_[static_cast<std::size_t>(index_.at(corner.planes))];
   }
-  int vertex_of(const Corner& corner) const { return name(index_.at(corner.planes)); }
 
   // The vertices on the line of two planes strictly between two of them, on the way.
   std::vector<int> between(int patch, int other, int from, int to) const {
@@ -150,7 +143,7 @@ class Welder {
   std::map<std::array<int, 3>, int> index_;
   std::vector<Vec3> at_;
   std::vector<std::vector<int>> planes_of_;  // of each corner, and of those joined with it
-  std::vector<int> joined_;
+  std::vector<int> name_;                    // of each corner, the first of those joined with it
   std::map<std::pair<int, int>, std::vector<int>> on_line_;  // by planes
 };
 
@@ -171,7 +164,7 @@ std::vector<Piece> weld(const std::vector<CornerPolygon>& polygons,
          trace_loops(edges, [&](int v) { return frame.to_plane(welder.at(v)); })) {
       std::vector<Vec3> points;
       for (std::size_t e : loop) points.push_back(welder.at(edges[e].from));
-      const double area = area_of(points, plane.normal);
+      const double area = doubled_area(flatten(points, frame)) / 2;
       if (std::abs(area) < options.min_area) continue;
       if (area > 0)
         found[k].push_back({patch, {std::move(points)}});

@@ -18,7 +18,7 @@ struct Corner {
 
 struct CornerPolygon {
   int patch = 0;                           // whose plane it is in
-  std::vector<std::vector<Corner>> loops;  // the outer one first
+  std::vector<std::vector<Corner>> loops;  // outer ones counter-clockwise, holes clockwise
 };
 
 // A polygon in a patch's plane: the outer loop first, counter-clockwise seen against the plane's

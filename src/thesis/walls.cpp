@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../parallel.h"
+#include "../point_sums.h"
 #include "hull.h"
 
 namespace scanworld::thesis {
@@ -16,40 +17,22 @@ namespace {
 constexpr double kFrontDepth = 4;  // [m] how far before and behind a polygon the place is looked at
 constexpr std::size_t kFrontPoints = 20000;  // of all points so many are looked at, about
 
-// What the points of one cluster add up to, in whole numbers: their order does not matter.
-struct Sums {
-  std::uint64_t points = 0;
-  std::uint64_t square_um = 0;  // [um2] of the distances from the plane
-  std::array<std::uint64_t, 3> color{};
-};
-
-std::vector<Sums> add_up(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
-                         const std::vector<Cluster>& clusters) {
+std::vector<PointSums> add_up(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
+                              const std::vector<Cluster>& clusters) {
   constexpr std::size_t kPart = 1 << 20;
-  std::vector<std::vector<Sums>> parts(part_count(labels.size(), kPart),
-                                       std::vector<Sums>(clusters.size()));
+  std::vector<std::vector<PointSums>> parts(part_count(labels.size(), kPart),
+                                            std::vector<PointSums>(clusters.size()));
   parallel_for(parts.size(), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, labels.size(), kPart);
     for (std::size_t i = begin; i < end; ++i) {
       if (labels[i] < 0) continue;
       const std::size_t c = static_cast<std::size_t>(labels[i]);
-      const double off = clusters[c].fit.plane.signed_distance(cloud.points[i].cast<double>());
-      const auto um = static_cast<std::uint64_t>(std::abs(off) * 1e6 + 0.5);
-      Sums& sums = parts[part][c];
-      ++sums.points;
-      sums.square_um += um * um;
-      if (cloud.colors.empty()) continue;
-      const Color& color = cloud.colors[i];
-      sums.color[0] += color.r, sums.color[1] += color.g, sums.color[2] += color.b;
+      parts[part][c].add(cloud, i, clusters[c].fit.plane);
     }
   });
-  std::vector<Sums> all(clusters.size());
-  for (const std::vector<Sums>& part : parts)
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      all[c].points += part[c].points;
-      all[c].square_um += part[c].square_um;
-      for (std::size_t k = 0; k < 3; ++k) all[c].color[k] += part[c].color[k];
-    }
+  std::vector<PointSums> all(clusters.size());
+  for (const std::vector<PointSums>& part : parts)
+    for (std::size_t c = 0; c < all.size(); ++c) all[c] += part[c];
   return all;
 }
 
@@ -68,14 +51,7 @@ bool is_inside(const Vec3& p, const Polygon& polygon, const Vec3& normal) {
 // Positive where the free side is the one that the plane's normal points to.
 double free_side(const Plane& plane, const Polygon& polygon, const std::vector<Vec3>& viewpoints,
                  const std::vector<Vec3>& points) {
-  if (!viewpoints.empty()) {
-    const Vec3 middle = middle_of(polygon);
-    const auto nearest =
-        std::min_element(viewpoints.begin(), viewpoints.end(), [&](const Vec3& a, const Vec3& b) {
-          return (a - middle).squaredNorm() < (b - middle).squaredNorm();
-        });
-    return plane.signed_distance(*nearest);
-  }
+  if (!viewpoints.empty()) return plane.signed_distance(nearest_of(viewpoints, middle_of(polygon)));
   double sum = 0;
   const std::size_t step = points.size() / kFrontPoints + 1;
   for (std::size_t i = 0; i < points.size(); i += step) {
@@ -122,7 +98,7 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
                                          const std::vector<Vec3>& points, double delta,
                                          const std::vector<Cluster>& clusters,
                                          const std::vector<Polygon>& polygons) {
-  const std::vector<Sums> sums = add_up(cloud, labels, clusters);
+  const std::vector<PointSums> sums = add_up(cloud, labels, clusters);
   std::vector<FoundSurface> walls(clusters.size());
   parallel_for(clusters.size(), [&](std::size_t c) {
     FoundSurface wall{.plane = clusters[c].fit.plane, .outer = polygons[c]};
@@ -133,15 +109,7 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
         std::reverse(wall.outer.begin(), wall.outer.end());
       }
     }
-    wall.support.points = sums[c].points;
-    if (sums[c].points > 0) {
-      const double n = static_cast<double>(sums[c].points);
-      wall.support.rms = std::sqrt(static_cast<double>(sums[c].square_um) / n) * 1e-6;
-      const auto mean = [&](std::size_t k) {
-        return static_cast<std::uint8_t>(static_cast<double>(sums[c].color[k]) / n + 0.5);
-      };
-      if (!cloud.colors.empty()) wall.color = Color{mean(0), mean(1), mean(2)};
-    }
+    sums[c].describe(cloud, wall);
     walls[c] = std::move(wall);
   });
   return walls;

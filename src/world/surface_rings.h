@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../polygon.h"
 #include "geos.h"
 #include "world.h"
 
@@ -22,16 +23,6 @@ inline geos::Rings rings_of(const World& world, const Surface& surface) {
   geos::Rings rings = {ring(surface.outer)};
   for (const Loop& hole : surface.holes) rings.push_back(ring(hole));
   return rings;
-}
-
-// Twice the signed area of a ring: positive where it is counter-clockwise.
-inline double doubled_area(const std::vector<Vec2>& ring) {
-  double sum = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
-    sum += p.x() * q.y() - p.y() * q.x();
-  }
-  return sum;
 }
 
 }  // namespace scanworld

@@ -38,8 +38,8 @@ Patch blank_patch(const Vec2& size, double cell) {
 double area_of(const Arrangement& arrangement, const std::vector<int>& ring) {
   double sum = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 &p = arrangement.vertices[static_cast<std::size_t>(ring[i])].at,
-               &q = arrangement.vertices[static_cast<std::size_t>(ring[(i + 1) % ring.size()])].at;
+    const Vec2 &p = arrangement.vertices[static_cast<std::size_t>(ring[i])],
+               &q = arrangement.vertices[static_cast<std::size_t>(ring[(i + 1) % ring.size()])];
     sum += p.x() * q.y() - p.y() * q.x();
   }
   return sum / 2;

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace scanworld::rival {
+namespace scanworld {
 
 // Numbers in sets, each named by the lowest of its own (Tarjan 1975, with path halving).
 class DisjointSets {
@@ -33,4 +33,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace scanworld::rival
+}  // namespace scanworld

@@ -4,9 +4,19 @@
 
 #include <vector>
 
-#include "../types.h"
+#include "types.h"
 
-namespace scanworld::surface {
+namespace scanworld {
+
+// Twice the signed area of a ring: positive where it is counter-clockwise.
+inline double doubled_area(const std::vector<Vec2>& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
+    sum += p.x() * q.y() - p.y() * q.x();
+  }
+  return sum;
+}
 
 // Whether a point is in a polygon, whose holes are loops as well: by the number of edges to its
 // right (the even-odd rule).
@@ -22,4 +32,4 @@ inline bool is_inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p
   return inside;
 }
 
-}  // namespace scanworld::surface
+}  // namespace scanworld
