@@ -95,15 +95,31 @@ void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
     if (label >= 0) label = first[static_cast<std::size_t>(label)];
 }
 
+// The voxels' points with their planes.
+surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clustering& clusters,
+                                      const std::vector<std::int32_t>& plane_of_cluster) {
+  std::vector<Vec3f> sites;
+  std::vector<std::int32_t> plane_of;
+  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
+    const std::int32_t l = clusters.label[i];
+    sites.push_back(grid.sites[i].mean);
+    plane_of.push_back(l == rival::kNone ? l : plane_of_cluster[static_cast<std::size_t>(l)]);
+  }
+  return surface::surroundings_of(std::move(sites), std::move(plane_of));
+}
+
 // The planes' polygons. A plane's points are labelled with its largest piece.
+template <typename Around>
 std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
-                                        double voxel, const surface::Surroundings& around,
+                                        double voxel, const Around& find_around,
                                         const surface::SurfaceOptions& options, StageLog& log,
                                         ReconstructResult& result) {
   using namespace surface;
-  const Members members = group_points(result.labels, planes.size());
-  const Vec3 up = find_frame(cloud, {}).up;
+  Members members;
   const std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
+    const Surroundings around = find_around();
+    members = group_points(result.labels, planes.size());
+    const Vec3 up = find_frame(cloud, {}).up;
     return find_patches(cloud, members, planes, voxel, around, up, options.patch);
   });
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
@@ -175,18 +191,13 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
     result.report.plane_noise.push_back(plane.noise);
   std::vector<Plane> planes;
   for (const LabelledPlane& plane : labelled.planes) planes.push_back(plane.fit.plane);
-  std::vector<Vec3f> sites;
-  std::vector<std::int32_t> plane_of;
-  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
-    const std::int32_t l = clusters.label[i];
-    sites.push_back(grid.sites[i].mean);
-    plane_of.push_back(l == kNone ? l : labelled.plane_of[static_cast<std::size_t>(l)]);
-  }
   const double voxel = grid.voxel;
-  grid = {}, neighbors = {};
-  return make_surfaces(cloud, planes, voxel,
-                       surface::surroundings_of(std::move(sites), std::move(plane_of)), all.surface,
-                       log, result);
+  const auto find_around = [&] {
+    surface::Surroundings around = surroundings_of(grid, clusters, labelled.plane_of);
+    grid = {}, neighbors = {};
+    return around;
+  };
+  return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result);
 }
 
 }  // namespace
