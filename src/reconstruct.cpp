@@ -87,9 +87,12 @@ void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
   std::vector<std::int32_t> first(planes, -1);
   std::vector<double> noise;
   for (std::size_t k = pieces.size(); k-- > 0;)
-    first[static_cast<std::size_t>(pieces[k].patch)] = static_cast<std::int32_t>(k);
-  for (const surface::Piece& piece : pieces)
-    noise.push_back(result.report.plane_noise[static_cast<std::size_t>(piece.patch)]);
+    if (const auto plane = static_cast<std::size_t>(pieces[k].patch); plane < planes)
+      first[plane] = static_cast<std::int32_t>(k);
+  for (const surface::Piece& piece : pieces) {
+    const auto plane = static_cast<std::size_t>(piece.patch);
+    noise.push_back(plane < planes ? result.report.plane_noise[plane] : 0);
+  }
   result.report.plane_noise = std::move(noise);
   for (std::int32_t& label : result.labels)
     if (label >= 0) label = first[static_cast<std::size_t>(label)];
@@ -116,26 +119,31 @@ std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vect
                                         ReconstructResult& result) {
   using namespace surface;
   Members members;
-  const std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
-    const Surroundings around = find_around();
+  std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
     members = group_points(result.labels, planes.size());
-    const Vec3 up = find_frame(cloud, {}).up;
-    return find_patches(cloud, members, planes, voxel, around, up, options.patch);
+    std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
+    const PatchRays rays(found);
+    return face_free_side(std::move(found), rays, cloud, members, options.facing);
   });
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
                                           [&] { return find_seams(patches, options.seams); });
   const std::vector<std::vector<CutLine>> lines = lines_of(patches, seams, options.seams);
+  patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
+    const Vec3 up = find_frame(cloud, {}).up;
+    return weigh_gaps(std::move(patches), lines, find_around(), up, options.gaps);
+  });
   const std::vector<SharedEdge> edges =
       log.run("Finding free edges", "patches -> edges", patches, [&] {
         return share_edges(find_free_edges(cloud, members, patches, lines, options.free_edges),
                            patches, seams, options.shared_edges);
       });
-  const Pieces pieces = log.run("Outlining", "patches -> polygons", patches,
-                                [&] { return outline_patches(patches, lines, edges, options); });
+  const Pieces pieces = log.run("Outlining", "patches -> polygons", patches, [&] {
+    return add_reveals(outline_patches(patches, lines, edges, options), options.reveals);
+  });
   return log.run("Welding", "polygons -> surfaces", pieces, [&] {
     const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
     relabel(welded, planes.size(), result);
-    return describe(cloud, members, patches, welded);
+    return describe(cloud, members, patches, pieces.planes, welded);
   });
 }
 
@@ -205,7 +213,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 17);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 18);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);

@@ -107,12 +107,16 @@ struct Support {
   bool operator==(const Support&) const = default;
 };
 
+// Whether a surface was seen, or was put where it must be though nothing saw it.
+enum class Source { measured, inferred };
+
 // A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the
 // plane's normal, which points to the free side; holes clockwise.
 struct FoundSurface {
   Plane plane;
   std::vector<Vec3> outer;
   std::vector<std::vector<Vec3>> holes;
+  Source source = Source::measured;
   Support support;
   std::optional<Color> color;  // the mean of its points'
 };

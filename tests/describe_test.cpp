@@ -20,7 +20,8 @@ TEST_CASE("a surface tells its points, their rms, its coverage and colour") {
   const Piece piece{plate,
                     {{{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}},
                      {{0.5, 0.25, 0}, {0.5, 0.75, 0}, {1.5, 0.75, 0}, {1.5, 0.25, 0}}}};
-  const FoundSurface surface = describe(scan.cloud, scan.members(), scan.patches(), {piece})[0];
+  const FoundSurface surface =
+      describe(scan.cloud, scan.members(), scan.patches(), scan.planes, {piece})[0];
   CHECK(surface.support.points == count);
   CHECK(surface.support.rms == doctest::Approx(0.004).scale(0).epsilon(0.05));
   // The patch ends a quarter of a metre beyond its points, what is farther does not count.

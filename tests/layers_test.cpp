@@ -17,9 +17,9 @@ namespace {
 // The room of a file of the project: "ground", "scan", "thesis", "world", "reconstruct",
 // "exporters", "apps" ...
 std::string room_of(const fs::path& file) {
-  static const std::set<std::string> ground = {"types",   "error",         "parallel",   "progress",
-                                               "options", "files",         "report",     "version",
-                                               "mix",     "disjoint_sets", "point_sums", "polygon"};
+  static const std::set<std::string> ground = {
+      "types",   "error", "parallel",      "progress",   "options", "files",    "report",
+      "version", "mix",   "disjoint_sets", "point_sums", "polygon", "mesh_rays"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;
@@ -44,16 +44,11 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 
 // The start of a library's header names, and the one file that may include them.
 const std::vector<std::pair<std::string, std::string>> kLibraries = {
-    {"tbb/", "src/parallel.cpp"},
-    {"oneapi/", "src/parallel.cpp"},
-    {"assimp/", "exporters/assimp.cpp"},
-    {"tiny_gltf.h", "exporters/gltf.cpp"},
-    {"embree3/", "src/world/ray_scene.cpp"},
-    {"boost/", "src/surface/choose_cells.cpp"},
-    {"geos", "src/world/geos.cpp"},
-    {"libqhull", "src/world/solids.cpp"},
-    {"zlib.h", "src/scan/file.cpp"},
-    {"liblzf/", "src/scan/pcd.cpp"},
+    {"tbb/", "src/parallel.cpp"},        {"oneapi/", "src/parallel.cpp"},
+    {"assimp/", "exporters/assimp.cpp"}, {"tiny_gltf.h", "exporters/gltf.cpp"},
+    {"embree3/", "src/mesh_rays.cpp"},   {"boost/", "src/surface/choose_cells.cpp"},
+    {"geos", "src/world/geos.cpp"},      {"libqhull", "src/world/solids.cpp"},
+    {"zlib.h", "src/scan/file.cpp"},     {"liblzf/", "src/scan/pcd.cpp"},
     {"toml", "apps/settings.cpp"},
 };
 

@@ -8,15 +8,6 @@ using namespace scanworld;
 using namespace scanworld::test;
 using namespace scanworld::surface;
 
-namespace {
-
-float evidence_at(const Patch& patch, const Vec3& p) {
-  const Vec2 q = (patch.frame.to_plane(p) - patch.hit.low) / patch.hit.cell;
-  return patch.evidence[patch.hit.index(static_cast<int>(q.x()), static_cast<int>(q.y()))];
-}
-
-}  // namespace
-
 TEST_CASE("points are grouped by their planes, those of none left out") {
   const std::vector<std::int32_t> labels = {2, -1, 0, 2, 0, -1, 2};
   const Members members = group_points(labels, 4);
@@ -57,45 +48,4 @@ TEST_CASE("what is sparse is no less there: its gaps say little") {
   }
   CHECK(dense > 0);
   CHECK(sparse > 0);
-}
-
-TEST_CASE("the normal points to the viewpoint, to where normals point, or to where the place is") {
-  for (double side : {1.0, -1.0}) {
-    LabelledScan scan;
-    scan.add({0, 0, 0}, {2, 0, 0}, {0, 2, 0});
-    scan.add({0, 0, side}, {2, 0, 0}, {0, 2, 0});
-    CHECK(scan.patches()[0].plane.normal.z() == doctest::Approx(side));
-    scan.cloud.normals.assign(scan.cloud.points.size(), Vec3f(0, 0, static_cast<float>(-side)));
-    CHECK(scan.patches()[0].plane.normal.z() == doctest::Approx(-side));
-    scan.cloud.viewpoints = {Vec3(1, 1, 0.5 * side)};
-    CHECK(scan.patches()[0].plane.normal.z() == doctest::Approx(side));
-  }
-}
-
-TEST_CASE("what a cupboard hides speaks hardly against a wall, a doorway does") {
-  LabelledScan scan;
-  // A wall in y = 0 with two gaps from the floor to 2 m; a cupboard's front before one of them.
-  const int wall = scan.add({0, 0, 0}, {0, 0, 2.5}, {1, 0, 0});
-  scan.add({2, 0, 0}, {0, 0, 2.5}, {1, 0, 0}, wall);
-  scan.add({4, 0, 0}, {0, 0, 2.5}, {1, 0, 0}, wall);
-  scan.add({1, 0, 2}, {0, 0, 0.5}, {3, 0, 0}, wall);
-  scan.add({1, 0.5, 0}, {0, 0, 2}, {1, 0, 0});
-  scan.cloud.viewpoints = {Vec3(2.5, 3, 1.5)};
-  const Patch patch = scan.patches()[0];
-  REQUIRE(patch.plane.normal.y() > 0.99);
-  CHECK(evidence_at(patch, {1.5, 0, 1}) > -0.2);
-  CHECK(evidence_at(patch, {3.5, 0, 1}) < -0.8);
-}
-
-TEST_CASE("a floor has no hole where a scanner stood, but one over what is below") {
-  LabelledScan scan;
-  const int floor = scan.add({0, 0, 0}, {4, 0, 0}, {0, 1, 0});
-  scan.add({0, 2, 0}, {4, 0, 0}, {0, 1, 0}, floor);
-  for (double x : {0.0, 1.5, 3.0})
-    scan.add({x, 1, 0}, {x == 1.5 ? 0.5 : 1.0, 0, 0}, {0, 1, 0}, floor);
-  scan.add({2, 1, -1}, {1, 0, 0}, {0, 1, 0});
-  scan.cloud.viewpoints = {Vec3(2, 1.5, 1.5)};
-  const Patch patch = scan.patches()[0];
-  CHECK(evidence_at(patch, {1.25, 1.5, 0}) > -0.2);
-  CHECK(evidence_at(patch, {2.5, 1.5, 0}) < -0.8);
 }

@@ -14,12 +14,12 @@ using namespace scanworld::surface;
 namespace {
 
 std::vector<Piece> pieces_of(const LabelledScan& scan) {
-  const std::vector<Patch> patches = scan.patches();
+  const std::vector<Patch> patches = scan.weighed_patches();
   const std::vector<Seam> seams = find_seams(patches);
   const auto lines = lines_of(patches, seams);
   const auto edges =
       share_edges(find_free_edges(scan.cloud, scan.members(), patches, lines), patches, seams);
-  const Pieces pieces = outline_patches(patches, lines, edges);
+  const Pieces pieces = add_reveals(outline_patches(patches, lines, edges));
   return weld(pieces.polygons, pieces.planes);
 }
 
@@ -130,6 +130,17 @@ TEST_CASE("a doorway stays open, the floor goes through it and ends at the walls
   CHECK(is_covered(pieces, {1.95, 3.075, 0}, Vec3::UnitZ()));
   CHECK_FALSE(is_covered(pieces, {1.0, 3.075, 0}, Vec3::UnitZ()));
   CHECK_FALSE(is_covered(pieces, {3.0, 3.075, 0}, Vec3::UnitZ()));
+}
+
+TEST_CASE("a doorway is closed all around between the faces of its wall") {
+  int around = 0;
+  for (const auto& [e, count] : edges_of(pieces_of(two_rooms()))) {
+    const Vec3 p(e[0], e[1], e[2]), q(e[3], e[4], e[5]), middle = (p + q) / 2;
+    if (!Box3(Vec3(1.45, 2.95, 0.01), Vec3(2.45, 3.2, 2.05)).contains(middle)) continue;
+    ++around;
+    CHECK(count == 2);
+  }
+  CHECK(around == 8);
 }
 
 TEST_CASE("no corner lies on an edge that has no vertex there") {

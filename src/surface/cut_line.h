@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "../types.h"
@@ -32,6 +34,17 @@ inline std::optional<Line3> intersect(const Plane& a, const Plane& b, double min
   const Vec3 point =
       (a.offset * b.normal.cross(cross) - b.offset * a.normal.cross(cross)) / (sine * sine);
   return Line3{-point, direction};
+}
+
+// The point that three planes have in common; nothing where it is no clear one.
+inline std::optional<Vec3> meet(const Plane& a, const Plane& b, const Plane& c) {
+  constexpr double kMinDeterminant = 0.05;
+  const Vec3 bc = b.normal.cross(c.normal);
+  const double determinant = a.normal.dot(bc);
+  if (std::abs(determinant) < kMinDeterminant) return std::nullopt;
+  return Vec3(
+      -(a.offset * bc + b.offset * c.normal.cross(a.normal) + c.offset * a.normal.cross(b.normal)) /
+      determinant);
 }
 
 // A line along which a patch may end: that of another plane, or one that its own outline shows.

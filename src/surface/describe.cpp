@@ -50,12 +50,17 @@ double coverage(const Patch& patch, const FlatPolygon& polygon) {
   return inside > 0 ? static_cast<double>(covered) / static_cast<double>(inside) : 1;
 }
 
+FoundSurface surface_of(const Plane& plane, const Piece& piece, Source source) {
+  return {.plane = plane,
+          .outer = piece.loops[0],
+          .holes = {piece.loops.begin() + 1, piece.loops.end()},
+          .source = source};
+}
+
 FoundSurface describe(const PointCloud& cloud, std::span<const std::uint32_t> members,
                       const Patch& patch, const Piece& piece) {
   const FlatPolygon polygon = flatten(patch.frame, piece);
-  FoundSurface surface{.plane = patch.plane,
-                       .outer = piece.loops[0],
-                       .holes = {piece.loops.begin() + 1, piece.loops.end()}};
+  FoundSurface surface = surface_of(patch.plane, piece, Source::measured);
   PointSums sums;
   for (std::uint32_t i : members) sums.add(cloud, i, patch.plane);
   sums.describe(cloud, surface);
@@ -67,11 +72,15 @@ FoundSurface describe(const PointCloud& cloud, std::span<const std::uint32_t> me
 
 std::vector<FoundSurface> describe(const PointCloud& cloud, const Members& members,
                                    const std::vector<Patch>& patches,
+                                   const std::vector<Plane>& planes,
                                    const std::vector<Piece>& pieces) {
   std::vector<FoundSurface> surfaces(pieces.size());
   parallel_for(pieces.size(), [&](std::size_t k) {
     const auto patch = static_cast<std::size_t>(pieces[k].patch);
-    surfaces[k] = describe(cloud, members.of(patch), patches[patch], pieces[k]);
+    if (patch < patches.size())
+      surfaces[k] = describe(cloud, members.of(patch), patches[patch], pieces[k]);
+    else
+      surfaces[k] = surface_of(planes[patch], pieces[k], Source::inferred);
   });
   return surfaces;
 }

@@ -7,9 +7,11 @@
 
 namespace scanworld::surface {
 
-// Each polygon as a surface, with what the scan says of it: its support and its colour.
+// Each polygon as a surface, with what the scan says of it: its support and its colour. Those in
+// planes that come after the patches' are inferred.
 std::vector<FoundSurface> describe(const PointCloud& cloud, const Members& members,
                                    const std::vector<Patch>& patches,
+                                   const std::vector<Plane>& planes,
                                    const std::vector<Piece>& pieces);
 
 }  // namespace scanworld::surface

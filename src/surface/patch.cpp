@@ -37,19 +37,9 @@ Members group_points(const std::vector<std::int32_t>& labels, std::size_t planes
   return members;
 }
 
-Surroundings surroundings_of(std::vector<Vec3f> points, std::vector<std::int32_t> planes) {
-  Surroundings s{std::move(points), std::move(planes), {}};
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    if (i % Surroundings::kRun == 0) s.boxes.emplace_back();
-    s.boxes.back().extend(s.points[i]);
-  }
-  return s;
-}
-
 namespace {
 
-constexpr std::size_t kFacingStep = 8;  // one of so many is enough to tell the free side
-constexpr double kLeastSeen = 0.15;     // share of cells with points, of the sparsest surface
+constexpr double kLeastSeen = 0.15;  // share of cells with points, of the sparsest surface
 
 // Points a cell: those in all cells, or, where they are in a part of them only, as dense as there.
 // Points that come by chance at a mean m hit 1 - exp(-m) of the cells.
@@ -60,55 +50,16 @@ float density_of(float points, int hits, int cells) {
   return std::max(mean, points / static_cast<float>(cells));
 }
 
-Raster empty_like(Raster raster) {
-  std::fill(raster.bits.begin(), raster.bits.end(), 0);
-  return raster;
-}
-
-void set(Raster& raster, const Vec2& p) {
-  const Vec2 q = ((p - raster.low) / raster.cell).array().floor();
-  const int x = static_cast<int>(q.x()), y = static_cast<int>(q.y());
-  if (raster.contains(x, y)) raster.bits[raster.index(x, y)] = 1;
-}
-
-// The cells that have set ones to both sides, along both axes.
-Raster enclosed_by(const Raster& raster) {
-  std::vector<int> ways(raster.bits.size());
-  const auto walk = [&](int x, int y, int dx, int dy) {
-    for (bool met = false; raster.contains(x, y); x += dx, y += dy) {
-      const std::size_t i = raster.index(x, y);
-      met |= raster.bits[i] != 0;
-      ways[i] += met;
-    }
-  };
-  for (int y = 0; y < raster.height; ++y) walk(0, y, 1, 0), walk(raster.width - 1, y, -1, 0);
-  for (int x = 0; x < raster.width; ++x) walk(x, 0, 0, 1), walk(x, raster.height - 1, 0, -1);
-  Raster enclosed = empty_like(raster);
-  for (std::size_t i = 0; i < ways.size(); ++i) enclosed.bits[i] = ways[i] == 4;
-  return enclosed;
-}
-
 class PatchMaker {
  public:
-  PatchMaker(const PointCloud& cloud, std::span<const std::uint32_t> members,
-             const std::vector<Plane>& planes, double cell, const Surroundings& surroundings,
-             const Vec3& up, const PatchOptions& options)
-      : cloud_(cloud),
-        members_(members),
-        planes_(planes),
-        cell_(cell),
-        around_(surroundings),
-        up_(up),
-        options_(options) {}
+  PatchMaker(const PointCloud& cloud, std::span<const std::uint32_t> members, double cell,
+             const PatchOptions& options)
+      : cloud_(cloud), members_(members), cell_(cell), options_(options) {}
 
   Patch make(const Plane& plane) {
     Patch patch{.plane = plane, .frame = frame_of(plane)};
     if (members_.empty()) return patch;
     rasterize(patch);
-    if (is_from_behind(patch)) {
-      patch = {.plane = plane.flipped(), .frame = frame_of(plane.flipped())};
-      rasterize(patch);
-    }
     weigh(patch);
     return patch;
   }
@@ -162,71 +113,6 @@ class PatchMaker {
     return density < 1.4 ? 3 : density < 2.2 ? 2 : 1;
   }
 
-  // Calls body(distance, where, plane) for what is around the patch, up to a depth.
-  template <typename Body>
-  void look(const Patch& patch, double depth, const Body& body, std::size_t step = 1) const {
-    const Eigen::AlignedBox3f reach = grown(patch.box, depth).cast<float>();
-    for (std::size_t run = 0; run < around_.boxes.size(); ++run) {
-      if (!reach.intersects(around_.boxes[run])) continue;
-      const std::size_t begin = run * Surroundings::kRun;
-      for (std::size_t i = begin; i < std::min(begin + Surroundings::kRun, around_.points.size());
-           i += step) {
-        const Vec3 p = around_.points[i].cast<double>();
-        const double distance = patch.plane.signed_distance(p);
-        if (std::abs(distance) < depth) body(distance, patch.frame.to_plane(p), around_.planes[i]);
-      }
-    }
-  }
-
-  bool is_from_behind(const Patch& patch) const {
-    if (!cloud_.viewpoints.empty())
-      return patch.plane.signed_distance(nearest_of(cloud_.viewpoints, patch.box.center())) < 0;
-    if (!cloud_.normals.empty()) {
-      std::int64_t along = 0;
-      for (std::uint32_t i : members_)
-        along += cloud_.normals[i].cast<double>().dot(patch.plane.normal) > 0 ? 1 : -1;
-      return along < 0;
-    }
-    double sum = 0;
-    look(
-        patch, options_.facing_depth,
-        [&](double distance, const Vec2& p, std::int32_t) {
-          if (patch.covered.is_set(p)) sum += distance;
-        },
-        kFacingStep);
-    return sum < 0;
-  }
-
-  // The cells of a floor that have nothing below; none of what is no floor.
-  Raster find_ground(const Patch& patch) const {
-    Raster ground = empty_like(patch.hit);
-    if (patch.plane.normal.dot(up_) < options_.level) return ground;
-    Raster below = ground;
-    look(patch, options_.depth_below, [&](double distance, const Vec2& p, std::int32_t) {
-      if (distance < -2 * cell_) set(below, p);
-    });
-    below = close(below, 2);
-    const Raster enclosed = enclosed_by(patch.hit);
-    for (std::size_t i = 0; i < ground.bits.size(); ++i)
-      ground.bits[i] = enclosed.bits[i] && !below.bits[i];
-    return ground;
-  }
-
-  // Whether what belongs to a plane, or to none, hides what is behind it.
-  bool may_hide(std::int32_t plane, const Plane& patch) const {
-    return plane < 0 ||
-           std::abs(planes_[static_cast<std::size_t>(plane)].normal.dot(patch.normal)) >
-               options_.shadow_cosine;
-  }
-  // The cells that something stands before.
-  Raster find_shadow(const Patch& patch) const {
-    Raster shadow = empty_like(patch.hit);
-    look(patch, options_.shadow_depth, [&](double distance, const Vec2& p, std::int32_t plane) {
-      if (distance > 2 * cell_ && may_hide(plane, patch.plane)) set(shadow, p);
-    });
-    return shadow;
-  }
-
   // How many points a cell would have, by squares of 8 x 8 cells that have some, or larger ones.
   std::vector<float> expect(const Patch& patch) const {
     constexpr int kSquare = 8;
@@ -278,25 +164,18 @@ class PatchMaker {
 
   void weigh(Patch& patch) const {
     const std::vector<float> expected = expect(patch);
-    const Raster shadow = find_shadow(patch), ground = find_ground(patch);
     patch.evidence.resize(expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       // Of points that come by chance, the share of cells that would have one.
       const double seen = 1 - std::exp(-static_cast<double>(expected[i]));
-      const double says = patch.hit.bits[i] ? 1 / std::max(seen, kLeastSeen)
-                          : shadow.bits[i]  ? options_.hidden_evidence
-                          : ground.bits[i]  ? -seen * options_.ground_price
-                                            : -seen;
-      patch.evidence[i] = static_cast<float>(says);
+      patch.evidence[i] =
+          static_cast<float>(patch.hit.bits[i] ? 1 / std::max(seen, kLeastSeen) : -seen);
     }
   }
 
   const PointCloud& cloud_;
   std::span<const std::uint32_t> members_;
-  const std::vector<Plane>& planes_;
   const double cell_;
-  const Surroundings& around_;
-  const Vec3& up_;
   const PatchOptions& options_;
   std::vector<std::uint32_t> count_;  // points in each cell
 };
@@ -305,12 +184,10 @@ class PatchMaker {
 
 std::vector<Patch> find_patches(const PointCloud& cloud, const Members& members,
                                 const std::vector<Plane>& planes, double cell,
-                                const Surroundings& surroundings, const Vec3& up,
                                 const PatchOptions& options) {
   std::vector<Patch> patches(planes.size());
   parallel_for(patches.size(), [&](std::size_t k) {
-    patches[k] =
-        PatchMaker(cloud, members.of(k), planes, cell, surroundings, up, options).make(planes[k]);
+    patches[k] = PatchMaker(cloud, members.of(k), cell, options).make(planes[k]);
   });
   return patches;
 }

@@ -37,6 +37,12 @@ void spread(Raster& raster, int reach, std::uint8_t value) {
 
 }  // namespace
 
+void set(Raster& raster, const Vec2& p) {
+  const Vec2 q = ((p - raster.low) / raster.cell).array().floor();
+  const int x = static_cast<int>(q.x()), y = static_cast<int>(q.y());
+  if (raster.contains(x, y)) raster.bits[raster.index(x, y)] = 1;
+}
+
 Raster grow(const Raster& raster, int reach) {
   Raster grown = raster;
   spread(grown, reach, 1);
@@ -48,6 +54,22 @@ Raster close(const Raster& raster, int reach) {
   spread(closed, reach, 1);
   spread(closed, reach, 0);
   return closed;
+}
+
+Raster enclosed_by(const Raster& raster) {
+  std::vector<int> ways(raster.bits.size());
+  const auto walk = [&](int x, int y, int dx, int dy) {
+    for (bool met = false; raster.contains(x, y); x += dx, y += dy) {
+      const std::size_t i = raster.index(x, y);
+      met |= raster.bits[i] != 0;
+      ways[i] += met;
+    }
+  };
+  for (int y = 0; y < raster.height; ++y) walk(0, y, 1, 0), walk(raster.width - 1, y, -1, 0);
+  for (int x = 0; x < raster.width; ++x) walk(x, 0, 0, 1), walk(x, raster.height - 1, 0, -1);
+  Raster enclosed = empty_like(raster);
+  for (std::size_t i = 0; i < ways.size(); ++i) enclosed.bits[i] = ways[i] == 4;
+  return enclosed;
 }
 
 }  // namespace scanworld::surface

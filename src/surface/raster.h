@@ -30,10 +30,22 @@ struct Raster {
   Vec2 high() const { return low + cell * Vec2(width, height); }
 };
 
+// One of the same size, nothing set.
+inline Raster empty_like(Raster raster) {
+  raster.bits.assign(raster.bits.size(), 0);
+  return raster;
+}
+
+// Sets the cell around a point, if there is one.
+void set(Raster& raster, const Vec2& p);
+
 // Sets all cells no more than `reach` cells along both axes from one that is set.
 Raster grow(const Raster& raster, int reach);
 
 // Grows and shrinks by the same: gaps up to twice `reach` are closed, the outline stays.
 Raster close(const Raster& raster, int reach);
+
+// The cells that have set ones to both sides, along both axes.
+Raster enclosed_by(const Raster& raster);
 
 }  // namespace scanworld::surface

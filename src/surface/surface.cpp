@@ -141,7 +141,8 @@ std::vector<FreeEdge> find_free_edges(const PointCloud& cloud, const Members& me
 
 Pieces outline_patches(const std::vector<Patch>& patches, std::vector<std::vector<CutLine>> lines,
                        const std::vector<SharedEdge>& edges, const SurfaceOptions& options) {
-  Pieces pieces;
+  Pieces pieces{.patches = static_cast<int>(patches.size()),
+                .edges = static_cast<int>(edges.size())};
   for (const Patch& patch : patches) pieces.planes.push_back(patch.plane);
   for (const SharedEdge& edge : edges) {
     const int plane = static_cast<int>(pieces.planes.size());
@@ -169,20 +170,27 @@ Pieces outline_patches(const std::vector<Patch>& patches, std::vector<std::vecto
 
 OptionList list_options(SurfaceOptions& o) {
   return {
-      {"surface.patch.shadow_depth", &o.patch.shadow_depth, "m",
+      {"surface.patch.margin", &o.patch.margin, "m", "around the points of a plane", 0.05},
+      {"surface.facing.places", &o.facing.places, "",
+       "of a surface that are looked from to find its free side", 1},
+      {"surface.facing.directions", &o.facing.directions, "", "from each place to each side", 1},
+      {"surface.facing.horizon", &o.facing.horizon, "m", "what is farther counts as so far", 0},
+      {"surface.facing.margin", &o.facing.margin, "m",
+       "before a place, where a line of sight may meet something", 0},
+      {"surface.gaps.shadow_depth", &o.gaps.shadow_depth, "m",
        "what stands no farther before a surface hides it", 0},
-      {"surface.patch.shadow_cosine", &o.patch.shadow_cosine, "",
+      {"surface.gaps.shadow_cosine", &o.gaps.shadow_cosine, "",
        "unless it is a plane at a larger angle to it", 0, 1},
-      {"surface.patch.hidden_evidence", &o.patch.hidden_evidence, "",
-       "for the surface where something hides it, where 1 is for a place with points", -1, 1},
-      {"surface.patch.ground_price", &o.patch.ground_price, "",
-       "of a floor without points and with nothing below, where 1 is for others", 0, 1},
-      {"surface.patch.level", &o.patch.level, "",
-       "cosine off upright of surfaces that one stands on", 0, 1},
-      {"surface.patch.depth_below", &o.patch.depth_below, "m",
+      {"surface.gaps.level", &o.gaps.level, "", "cosine off upright of surfaces that one stands on",
+       0, 1},
+      {"surface.gaps.depth_below", &o.gaps.depth_below, "m",
        "so far something below such a surface tells that a hole in it is one", 0},
-      {"surface.patch.facing_depth", &o.patch.facing_depth, "m",
-       "so far the place is looked at to tell a surface's free side", 0},
+      {"surface.gaps.hidden_evidence", &o.gaps.hidden_evidence, "",
+       "for the surface where something hides it, where 1 is for a place with points", -1, 1},
+      {"surface.gaps.hidden_share", &o.gaps.hidden_share, "",
+       "of a gap; then all of it counts as hidden", 0, 1},
+      {"surface.gaps.ground_price", &o.gaps.ground_price, "",
+       "of a floor without points and with nothing below, where 1 is for others", 0, 1},
       {"surface.seams.min_sine", &o.seams.min_sine, "", "of the angle between planes that can meet",
        0.01, 1},
       {"surface.seams.gap", &o.seams.gap, "m", "planes meet if both come so near to their line", 0},
@@ -210,6 +218,11 @@ OptionList list_options(SurfaceOptions& o) {
       {"surface.choice.edge_price", &o.choice.edge_price, "m", "along an end that the points show",
        0},
       {"surface.choice.open_price", &o.choice.open_price, "m", "anywhere else", 0},
+      {"surface.reveals.max_tilt", &o.reveals.max_tilt, "rad",
+       "between the faces of a wall whose ends are closed", 0, 0.7},
+      {"surface.reveals.min_thickness", &o.reveals.min_thickness, "m", "of such a wall", 0},
+      {"surface.reveals.max_thickness", &o.reveals.max_thickness, "m", "of such a wall", 0},
+      {"surface.reveals.min_length", &o.reveals.min_length, "m", "of a closed end", 0},
       {"surface.weld.same", &o.weld.same, "m", "corners nearer than this are one", 0},
       {"surface.weld.off_plane", &o.weld.off_plane, "m",
        "if that takes them no farther off their planes", 0, 0.0009},

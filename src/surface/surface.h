@@ -7,7 +7,10 @@
 
 #include "../options.h"
 #include "choose_cells.h"
+#include "facing.h"
 #include "free_edges.h"
+#include "gaps.h"
+#include "reveals.h"
 #include "seams.h"
 #include "shared_edges.h"
 #include "weld.h"
@@ -16,10 +19,13 @@ namespace scanworld::surface {
 
 struct SurfaceOptions {
   PatchOptions patch;
+  FacingOptions facing;
   SeamOptions seams;
+  GapOptions gaps;
   FreeEdgeOptions free_edges;
   SharedEdgeOptions shared_edges;
   ChoiceOptions choice;
+  RevealOptions reveals;
   WeldOptions weld;
   double min_area = 0.02;  // [m2] smaller pieces and holes are left out
 };
@@ -37,15 +43,7 @@ std::vector<FreeEdge> find_free_edges(const PointCloud& cloud, const Members& me
                                       const std::vector<std::vector<CutLine>>& lines,
                                       const FreeEdgeOptions& options = {});
 
-// A piece of a patch, whose corners are told by planes: those of the patches, then those of the
-// free edges, then four around each patch.
-struct Pieces {
-  std::vector<Plane> planes;
-  std::vector<CornerPolygon> polygons;  // by patch
-};
-
-inline std::size_t count_of(const Pieces& pieces) { return pieces.polygons.size(); }
-
+// The polygons of all patches.
 Pieces outline_patches(const std::vector<Patch>& patches, std::vector<std::vector<CutLine>> lines,
                        const std::vector<SharedEdge>& edges, const SurfaceOptions& options = {});
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "weld.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,13 +10,12 @@
 #include "../disjoint_sets.h"
 #include "../parallel.h"
 #include "../polygon.h"
+#include "cut_line.h"
 #include "trace_loops.h"
 
 namespace scanworld::surface {
 
 namespace {
-
-constexpr double kMinDeterminant = 0.05;  // of three normals whose planes meet in a clear point
 
 std::vector<Vec2> flatten(const std::vector<Vec3>& loop, const PlaneFrame& frame) {
   std::vector<Vec2> flat;
@@ -73,16 +71,11 @@ class Welder {
   void add(const Corner& corner) {
     const auto [found, is_new] = index_.try_emplace(corner.planes, static_cast<int>(at_.size()));
     if (!is_new) return;
-    Mat3 normals;
-    Vec3 offsets;
-    for (int k = 0; k < 3; ++k) {
-      const Plane& p =
-          planes_[static_cast<std::size_t>(corner.planes[static_cast<std::size_t>(k)])];
-      normals.row(k) = p.normal.transpose(), offsets[k] = -p.offset;
-    }
-    const bool is_clear = std::abs(normals.determinant()) > kMinDeterminant;
+    const auto plane = [&](std::size_t k) -> const Plane& {
+      return planes_[static_cast<std::size_t>(corner.planes[k])];
+    };
     planes_of_.push_back({corner.planes.begin(), corner.planes.end()});
-    at_.push_back(is_clear ? Vec3(normals.inverse() * offsets) : corner.at);
+    at_.push_back(meet(plane(0), plane(1), plane(2)).value_or(corner.at));
   }
 
   // Corners that are nearly one become the first of them.

@@ -71,6 +71,7 @@ World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& fra
   VertexPool pool(world.vertices);
   for (const FoundSurface& found : surfaces) {
     Surface surface{.id = static_cast<int>(world.surfaces.size()),
+                    .source = found.source,
                     .plane = found.plane,
                     .outer = pool.add(found.outer),
                     .support = found.support,

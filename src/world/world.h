@@ -21,9 +21,6 @@ using Loop = std::vector<int>;
 
 enum class Kind { floor, ceiling, wall, other };
 
-// Whether a surface was seen, or was put where it must be though nothing saw it.
-enum class Source { measured, inferred };
-
 // A planar polygon. Its plane's normal points to the free side, from where `outer` is
 // counter-clockwise and the holes are clockwise.
 struct Surface {

@@ -16,9 +16,21 @@ int LabelledScan::add(const Vec3& corner, const Vec3& a, const Vec3& b, int plan
   return plane;
 }
 
-std::vector<Patch> LabelledScan::patches(const PatchOptions& options) const {
-  return find_patches(cloud, members(), planes, 0.04, surroundings_of(cloud.points, labels),
-                      Vec3::UnitZ(), options);
+std::vector<Patch> LabelledScan::patches() const {
+  std::vector<Patch> found = find_patches(cloud, members(), planes, 0.04);
+  const PatchRays rays(found);
+  return face_free_side(std::move(found), rays, cloud, members());
+}
+
+std::vector<Patch> LabelledScan::weighed_patches() const {
+  const std::vector<Patch> found = patches();
+  return weigh_gaps(found, lines_of(found, find_seams(found)),
+                    surroundings_of(cloud.points, labels), Vec3::UnitZ());
+}
+
+float evidence_at(const Patch& patch, const Vec3& p) {
+  const Vec2 q = (patch.frame.to_plane(p) - patch.hit.low) / patch.hit.cell;
+  return patch.evidence[patch.hit.index(static_cast<int>(q.x()), static_cast<int>(q.y()))];
 }
 
 Patch blank_patch(const Vec2& size, double cell) {

@@ -18,12 +18,18 @@ struct LabelledScan {
   // Adds a rectangle, on jittered points 2 cm apart; its plane's normal is that of a x b. More of
   // the same plane where `plane` says so.
   int add(const Vec3& corner, const Vec3& a, const Vec3& b, int plane = -1, double noise = 0.003);
-  std::vector<surface::Patch> patches(const surface::PatchOptions& options = {}) const;
+  // The patches, turned to their free side.
+  std::vector<surface::Patch> patches() const;
+  // The same, their gaps weighed between their seams.
+  std::vector<surface::Patch> weighed_patches() const;
   surface::Members members() const { return surface::group_points(labels, planes.size()); }
 
  private:
   Random random_{7};
 };
+
+// What the cell around a point says for the surface.
+float evidence_at(const surface::Patch& patch, const Vec3& p);
 
 // A raster around the rectangle from 0 to `size` [m], all of it without points.
 surface::Patch blank_patch(const Vec2& size, double cell);

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "patch_rays.h"
+
+namespace scanworld::surface {
+
+struct FacingOptions {
+  int places = 16;       // of a patch that are looked from
+  int directions = 16;   // from each place to each side
+  double horizon = 4;    // [m] what is farther counts as so far
+  double margin = 0.05;  // [m] before a place, where a line of sight may meet something
+};
+
+// The patch with its normal the other way.
+Patch flipped(const Patch& patch);
+
+// Turns the patches' normals to the free side: to the viewpoints that have seen most places; where
+// none is known, as most normals of the points; where there are none either, to the side with more
+// free space before other patches. On that side one looks far before something is met; inside a
+// wall or a cupboard one does not, and outside of what was scanned nothing is met at all.
+std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& rays,
+                                  const PointCloud& cloud, const Members& members,
+                                  const FacingOptions& options = {});
+
+}  // namespace scanworld::surface

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "patch_rays.h"
+
+#include <algorithm>
+
+namespace scanworld::surface {
+
+namespace {
+
+struct CellBox {
+  int x0, x1, y0, y1;  // from, and up to but without
+};
+
+// The set cells as rectangles: runs of a row, with the same runs of the rows after it.
+std::vector<CellBox> rectangles_of(const Raster& raster) {
+  std::vector<CellBox> done, open;
+  for (int y = 0; y <= raster.height; ++y) {
+    std::vector<CellBox> row;
+    for (int x = 0; x < raster.width; ++x) {
+      if (!raster.is_set(x, y)) continue;
+      const int start = x;
+      while (raster.is_set(x, y)) ++x;
+      row.push_back({start, x, y, y + 1});
+    }
+    for (const CellBox& before : open) {
+      const auto same = std::find_if(row.begin(), row.end(), [&](const CellBox& r) {
+        return r.x0 == before.x0 && r.x1 == before.x1;
+      });
+      if (same == row.end())
+        done.push_back(before);
+      else
+        same->y0 = before.y0;
+    }
+    open = std::move(row);
+  }
+  return done;
+}
+
+}  // namespace
+
+PatchRays::PatchRays(const std::vector<Patch>& patches) {
+  Mesh mesh;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Raster& covered = patches[k].covered;
+    for (const CellBox& box : rectangles_of(covered)) {
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (const auto& [x, y] :
+           {std::pair{box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}})
+        mesh.vertices.push_back(patches[k].frame.to_space(covered.low + covered.cell * Vec2(x, y)));
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+      patch_of_.insert(patch_of_.end(), 2, k);
+    }
+  }
+  rays_ = std::make_unique<MeshRays>(mesh);
+}
+
+std::optional<PatchRays::Hit> PatchRays::cast(const Vec3& from, const Vec3& direction, double far,
+                                              double near) const {
+  const auto hit = rays_->cast(from, direction, far, near);
+  if (!hit) return std::nullopt;
+  return Hit{hit->distance, patch_of_[hit->triangle]};
+}
+
+bool PatchRays::is_free(const Vec3& from, const Vec3& to, double margin) const {
+  const double length = (to - from).norm();
+  return length <= margin || !cast(from, (to - from) / length, length - margin);
+}
+
+const Vec3* find_viewer(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                        const Vec3& place, double margin) {
+  constexpr std::size_t kTries = 4;  // those that are farther hardly saw it
+  if (viewpoints.size() == 1) return &viewpoints[0];
+  std::vector<const Vec3*> order;
+  for (const Vec3& v : viewpoints) order.push_back(&v);
+  const auto tried = order.begin() + static_cast<std::ptrdiff_t>(std::min(kTries, order.size()));
+  std::partial_sort(order.begin(), tried, order.end(), [&](const Vec3* a, const Vec3* b) {
+    return (*a - place).squaredNorm() < (*b - place).squaredNorm();
+  });
+  const auto found = std::find_if(order.begin(), tried, [&](const Vec3* viewpoint) {
+    return rays.is_free(*viewpoint, place, margin);
+  });
+  return found == tried ? nullptr : *found;
+}
+
+}  // namespace scanworld::surface
