@@ -14,6 +14,7 @@
 #include "version.h"
 #include "world/assemble.h"
 #include "world/find_frame.h"
+#include "world/openings.h"
 
 namespace scanworld {
 
@@ -128,14 +129,18 @@ std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vect
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
                                           [&] { return find_seams(patches, options.seams); });
   const std::vector<std::vector<CutLine>> lines = lines_of(patches, seams, options.seams);
+  Surroundings around;
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
+    around = find_around();
     const Vec3 up = find_frame(cloud, {}).up;
-    return weigh_gaps(std::move(patches), lines, find_around(), up, options.gaps);
+    return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
   });
   const std::vector<SharedEdge> edges =
       log.run("Finding free edges", "patches -> edges", patches, [&] {
-        return share_edges(find_free_edges(cloud, members, patches, lines, options.free_edges),
-                           patches, seams, options.shared_edges);
+        std::vector<SharedEdge> shared =
+            share_edges(find_free_edges(cloud, members, patches, lines, options.free_edges),
+                        patches, seams, options.shared_edges);
+        return move_to_reveals(std::move(shared), patches, around, options.shared_edges);
       });
   const Pieces pieces = log.run("Outlining", "patches -> polygons", patches, [&] {
     return add_reveals(outline_patches(patches, lines, edges, options), options.reveals);
@@ -213,7 +218,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 11 : 18);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 12 : 19);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);
@@ -225,6 +230,8 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                     cloud.points.size(), result.report.scale));
   if (result.report.noise == 0) result.report.noise = median_rms(surfaces);
   result.world = assemble_world(surfaces, find_frame(cloud, surfaces));
+  result.world.openings = log.run("Finding openings", "surfaces -> openings", surfaces,
+                                  [&] { return find_openings(result.world); });
 
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))

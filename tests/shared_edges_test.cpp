@@ -48,3 +48,28 @@ TEST_CASE("an edge that ends at a seam goes on in the patch on the other side") 
   }
   CHECK(there == std::set<int>{floor, wall});
 }
+
+TEST_CASE("an edge moves to what was seen of its reveal, but not to scattered points") {
+  for (bool is_scattered : {false, true}) {
+    LabelledScan scan;
+    const int wall = scan.add({0, 0, 0}, {1, 0, 0}, {0, 0, 2.5});
+    scan.cloud.viewpoints = {Vec3(1, -3, 1)};
+    const std::vector<Patch> patches = scan.patches();
+    REQUIRE(patches[0].plane.normal.y() < -0.99);
+    // The wall seems to end at x = 1.05; its reveal is at 1.02.
+    SharedEdge edge{plane_through({1.05, 0, 0}, Vec3::UnitX()),
+                    {{wall, {1.05, 0, 0.1}, {1.05, 0, 2}}}};
+    Random random(5);
+    for (int i = 0; i < 60; ++i)
+      scan.cloud.points.emplace_back(
+          static_cast<float>(is_scattered ? random.uniform(0.97, 1.13)
+                                          : random.uniform(1.017, 1.023)),
+          static_cast<float>(random.uniform(0.03, 0.2)),
+          static_cast<float>(random.uniform(0.2, 1.9)));
+    scan.labels.resize(scan.cloud.points.size(), -1);
+    const auto moved =
+        move_to_reveals({edge}, patches, surroundings_of(scan.cloud.points, scan.labels));
+    const double x = -moved[0].plane.offset;
+    CHECK(x == doctest::Approx(is_scattered ? 1.05 : 1.02).epsilon(0.002).scale(0));
+  }
+}

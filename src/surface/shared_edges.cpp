@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../disjoint_sets.h"
+#include "../parallel.h"
 
 namespace scanworld::surface {
 
@@ -63,6 +64,40 @@ void carry_over(const FreeEdge& edge, const std::vector<Patch>& patches,
   }
 }
 
+// How far off an edge's plane the places are that may be its reveal's, behind the faces.
+std::vector<double> offsets_of_reveal(const SharedEdge& edge, const std::vector<Patch>& patches,
+                                      const Surroundings& around,
+                                      const SharedEdgeOptions& options) {
+  Box3 box;
+  for (const SharedEdge::Part& part : edge.parts) box.extend(part.from), box.extend(part.to);
+  const Eigen::AlignedBox3f reach =
+      grown(box, options.reveal_depth + options.reveal_reach).cast<float>();
+  const auto is_behind = [&](const SharedEdge::Part& part, const Vec3& p, double clearance) {
+    const double depth = -patches[static_cast<std::size_t>(part.patch)].plane.signed_distance(p);
+    const Vec3 way = part.to - part.from;
+    const double t = way.dot(p - part.from) / way.squaredNorm();
+    return depth > clearance && depth < options.reveal_depth && t > 0 && t < 1;
+  };
+  std::vector<double> off;
+  for (std::size_t run = 0; run < around.boxes.size(); ++run) {
+    if (!reach.intersects(around.boxes[run])) continue;
+    const std::size_t begin = run * Surroundings::kRun;
+    for (std::size_t i = begin; i < std::min(begin + Surroundings::kRun, around.points.size());
+         ++i) {
+      const Vec3 p = around.points[i].cast<double>();
+      const double distance = edge.plane.signed_distance(p);
+      if (std::abs(distance) > options.reveal_reach) continue;
+      // What belongs to another surface is none of its reveal: that would be a seam.
+      if (around.planes[i] >= 0) continue;
+      if (std::any_of(edge.parts.begin(), edge.parts.end(), [&](const SharedEdge::Part& part) {
+            return is_behind(part, p, patches[static_cast<std::size_t>(part.patch)].hit.cell / 2);
+          }))
+        off.push_back(distance);
+    }
+  }
+  return off;
+}
+
 }  // namespace
 
 std::vector<SharedEdge> share_edges(const std::vector<FreeEdge>& edges,
@@ -93,6 +128,21 @@ std::vector<SharedEdge> share_edges(const std::vector<FreeEdge>& edges,
     shared.push_back(std::move(edge));
   }
   return shared;
+}
+
+std::vector<SharedEdge> move_to_reveals(std::vector<SharedEdge> edges,
+                                        const std::vector<Patch>& patches,
+                                        const Surroundings& around,
+                                        const SharedEdgeOptions& options) {
+  parallel_for(edges.size(), [&](std::size_t k) {
+    std::vector<double> off = offsets_of_reveal(edges[k], patches, around, options);
+    if (off.size() < static_cast<std::size_t>(options.reveal_sites)) return;
+    std::sort(off.begin(), off.end());
+    const std::size_t n = off.size();
+    if (off[n - 1 - n / 4] - off[n / 4] < options.reveal_spread)
+      edges[k].plane.offset -= (off[n / 2] + off[(n - 1) / 2]) / 2;
+  });
+  return edges;
 }
 
 }  // namespace scanworld::surface
