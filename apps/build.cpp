@@ -9,6 +9,7 @@
 #include "cli.h"
 #include "error.h"
 #include "exporters/export.h"
+#include "fidelity.h"
 #include "files.h"
 #include "parallel.h"
 #include "report_json.h"
@@ -62,11 +63,6 @@ std::vector<ExportFormat> resolve_exports(const Request& request) {
   return formats;
 }
 
-void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses) {
-  cloud.viewpoints.clear();
-  for (const Vec3& pose : poses) cloud.viewpoints.push_back(pose - cloud.origin);
-}
-
 std::vector<std::string> warnings_about(const PointCloud& cloud) {
   std::vector<std::string> warnings;
   if (!cloud.skipped.empty())
@@ -114,9 +110,9 @@ void write_files(const std::filesystem::path& folder, const Request& request,
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 
-Json whole_report(const Request& request, const ReconstructResult& result, const PointCloud& cloud,
-                  double seconds) {
-  Json report = report_json(result, cloud);
+Json whole_report(const Request& request, const ReconstructResult& result, const Fidelity& fidelity,
+                  const PointCloud& cloud, double seconds) {
+  Json report = report_json(result, fidelity, cloud);
   report["scans"] = Json::array();
   for (const auto& scan : request.scans) report["scans"].push_back(scan.string());
   report["method"] = request.method;
@@ -157,7 +153,7 @@ void run(Request request) {
       StageLog(reading, progress, 1).run("Reading", "files -> points", request.scans, [&] {
         return read_scan(request.scans);
       });
-  if (!poses.empty()) use_poses(cloud, poses);
+  use_poses(cloud, poses);
   if (request.preset.empty()) {
     request.preset = preset_for(cloud);
     options = resolve_options(request);
@@ -173,12 +169,14 @@ void run(Request request) {
     throw Error(Cause::check_failed,
                 fmt::format("the world is not valid: {}", fmt::join(reasons, "; ")));
 
-  StageLog(result.report, progress, stages.size() + 1)
-      .run("Writing", "surfaces -> files", result.world.surfaces, [&] {
-        write_files(folder.path(), request, formats, cloud, result);
-        return formats.size() + 1 + request.labels;
-      });
-  const Json report = whole_report(request, result, cloud, seconds_since(start));
+  StageLog log(result.report, progress, stages.size() + 2);
+  const Fidelity fidelity = log.run("Checking fidelity", "points -> criteria", cloud,
+                                    [&] { return fidelity_of(result.world, cloud); });
+  log.run("Writing", "surfaces -> files", result.world.surfaces, [&] {
+    write_files(folder.path(), request, formats, cloud, result);
+    return formats.size() + 1 + request.labels;
+  });
+  const Json report = whole_report(request, result, fidelity, cloud, seconds_since(start));
   write_json(folder.path() / "report.json", report);
   folder.commit();
   tell(request, result, report);

@@ -6,6 +6,9 @@
 
 #include "cli.h"
 #include "error.h"
+#include "fidelity.h"
+#include "parallel.h"
+#include "scan/read_scan.h"
 #include "world/validate.h"
 #include "world/world_json.h"
 
@@ -13,37 +16,74 @@ namespace scanworld::cli {
 
 namespace {
 
-void run(const std::filesystem::path& path, bool json) {
-  const World world = read_world(path);
+constexpr const char* kExample = R"(Examples:
+  scanworld check office
+  scanworld check office office.ply --poses poses.txt
+The second measures the world against its scan: distances both ways, how much of the surfaces has
+points and how many points no surface explains, and with scanner positions which rays the world
+contradicts. docs/fidelity.md has the meaning and limit of each figure.)";
+
+struct Request {
+  std::filesystem::path world, poses;
+  std::vector<std::filesystem::path> scans;
+  int threads = 0;
+  bool json = false;
+};
+
+Fidelity measure(const Request& request, const World& world) {
+  const std::vector<Vec3> poses =
+      request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
+  PointCloud cloud = read_scan(request.scans);
+  use_poses(cloud, poses);
+  return fidelity_of(world, cloud);
+}
+
+void run(const Request& request) {
+  if (request.scans.empty() && !request.poses.empty())
+    throw Error(Cause::usage, "--poses needs a SCAN that was made from there");
+  const ThreadLimit threads(request.threads);
+  const World world = read_world(request.world);
+  const std::string name = request.world.string();
   const std::vector<std::string> reasons = validate(world);
-  if (json) {
-    print_json({{"world", path.string()}, {"valid", reasons.empty()}, {"reasons", reasons}});
-  } else if (reasons.empty()) {
-    fmt::print("{}: valid, {} surfaces\n", path.string(), world.surfaces.size());
+  std::optional<Fidelity> fidelity;
+  if (reasons.empty() && !request.scans.empty()) fidelity = measure(request, world);
+  if (request.json) {
+    nlohmann::ordered_json json = {
+        {"world", name}, {"valid", reasons.empty()}, {"reasons", reasons}};
+    if (fidelity) json["fidelity"] = json_of(*fidelity);
+    print_json(json);
   } else {
     for (const std::string& reason : reasons) fmt::print("{}\n", reason);
+    if (reasons.empty()) fmt::print("{}: valid, {} surfaces\n", name, world.surfaces.size());
+    if (fidelity) fmt::print("{}", text_of(*fidelity, world));
   }
   if (!reasons.empty())
     throw Error(Cause::check_failed,
-                fmt::format("{}: not valid, {} reasons", path.string(), reasons.size()));
+                fmt::format("{}: not valid, {} reasons", name, reasons.size()));
+  if (fidelity && !fidelity->is_faithful())
+    throw Error(Cause::check_failed, fmt::format("{}: {}", name, verdict_of(*fidelity)));
 }
 
 }  // namespace
 
 void add_check(CLI::App& app) {
-  struct Request {
-    std::filesystem::path world;
-    bool json = false;
-  };
   auto request = std::make_shared<Request>();
-  CLI::App* verb =
-      app.add_subcommand("check", "Tell whether a world is valid, and if not why (exit code 5)");
+  CLI::App* verb = app.add_subcommand(
+      "check", "Tell whether a world is valid and, with its scan, faithful (if not, exit code 5)");
   verb->add_option("world", request->world, "A world.json or its folder")
       ->required()
       ->type_name("WORLD");
+  verb->add_option("scans", request->scans, "The scan that it was made of, to measure it against")
+      ->type_name("SCAN");
+  verb->add_option("--poses", request->poses,
+                   "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")
+      ->type_name("F");
+  verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   verb->add_flag("--json", request->json, "As JSON");
-  verb->footer("Example:\n  scanworld check office");
-  verb->callback([request] { run(request->world, request->json); });
+  verb->footer(kExample);
+  verb->callback([request] { run(*request); });
 }
 
 }  // namespace scanworld::cli

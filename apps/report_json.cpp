@@ -3,6 +3,7 @@
 #include "report_json.h"
 
 #include "cli.h"
+#include "fidelity.h"
 #include "version.h"
 #include "world/world_json.h"
 
@@ -38,7 +39,8 @@ Json planes_json(const ReconstructResult& result) {
 
 }  // namespace
 
-Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
+Json report_json(const ReconstructResult& result, const Fidelity& fidelity,
+                 const PointCloud& cloud) {
   const Report& report = result.report;
   Json stages = Json::array();
   double cpu = 0;
@@ -55,6 +57,7 @@ Json report_json(const ReconstructResult& result, const PointCloud& cloud) {
           {"planes", planes_json(result)},
           {"triangles", triangle_count(result.world)},
           {"surfaces", kind_counts(result.world)},
+          {"fidelity", json_of(fidelity)},
           {"stages", stages},
           {"cpu_seconds", cpu},
           {"peak_memory_mb", peak_memory_mb()},

@@ -27,7 +27,7 @@ RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>()) {
       impl_->owner.emplace_back(false, o);
     }
   }
-  impl_->rays.emplace(all);
+  impl_->rays.emplace(std::move(all));
 }
 
 RayScene::~RayScene() = default;
@@ -42,7 +42,14 @@ std::optional<Hit> RayScene::cast(const Vec3& from, const Vec3& direction, doubl
 bool RayScene::is_free(const Vec3& from, const Vec3& to) const {
   const Vec3 way = to - from;
   const double length = way.norm();
-  return length == 0 || !cast(from, way / length, length);
+  return length == 0 || impl_->rays->is_free(from, way / length, length);
+}
+
+std::optional<Nearest> RayScene::nearest(const Vec3& point, double max_distance) const {
+  const auto hit = impl_->rays->nearest(point, max_distance);
+  if (!hit) return std::nullopt;
+  const auto& [is_surface, index] = impl_->owner[hit->triangle];
+  return Nearest{hit->distance, is_surface, index};
 }
 
 }  // namespace scanworld

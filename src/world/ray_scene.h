@@ -18,8 +18,15 @@ struct Hit {
   std::size_t index;  // into World::surfaces or World::obstacles
 };
 
-// The surfaces and obstacles of a world, ready for rays (Embree). Both sides of a surface are met.
-// Thread-safe.
+// What is nearest to a point.
+struct Nearest {
+  double distance;    // [m]
+  bool is_surface;    // or the skin of an obstacle
+  std::size_t index;  // into World::surfaces or World::obstacles
+};
+
+// The surfaces and obstacles of a world, ready for rays and distances (Embree). Both sides of a
+// surface are met. Thread-safe.
 class RayScene {
  public:
   explicit RayScene(const World& world);
@@ -31,6 +38,10 @@ class RayScene {
   std::optional<Hit> cast(const Vec3& from, const Vec3& direction,
                           double far = std::numeric_limits<float>::max()) const;
   bool is_free(const Vec3& from, const Vec3& to) const;
+
+  // The surface or obstacle nearest to a point, if it is within `max_distance`; the first of those
+  // that are equally near, surfaces before obstacles. Distances are in double precision.
+  std::optional<Nearest> nearest(const Vec3& point, double max_distance) const;
 
  private:
   struct Impl;

@@ -121,4 +121,13 @@ Mesh mesh_of(const Obstacle& obstacle, const Frame& frame) {
   return mesh_of(std::get<Cylinder>(obstacle.shape), frame.up);
 }
 
+bool contains(const Mesh& convex, const Vec3& point) {
+  return std::all_of(convex.triangles.begin(), convex.triangles.end(), [&](const auto& t) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return convex.vertices[static_cast<std::size_t>(t[k])];
+    };
+    return (at(1) - at(0)).cross(at(2) - at(0)).dot(point - at(0)) <= 0;
+  });
+}
+
 }  // namespace scanworld

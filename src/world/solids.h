@@ -20,4 +20,7 @@ Mesh mesh_of(const ConvexHull& hull);
 
 Mesh mesh_of(const Obstacle& obstacle, const Frame& frame);
 
+// Whether a point is in a convex solid.
+bool contains(const Mesh& convex, const Vec3& point);
+
 }  // namespace scanworld

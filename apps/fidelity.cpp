@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fidelity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli.h"
+#include "reconstruct.h"
+#include "rival/scale.h"
+
+namespace scanworld::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kNamedSurfaces = 5;  // in the text
+
+Json json_of(const Distances& d) { return {{"median", d.median}, {"p95", d.p95}}; }
+
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::string length_text(double metres) { return fmt::format("{:.1f} mm", 1e3 * metres); }
+
+std::string value_text(double value, const std::string& unit) {
+  if (unit == "m") return length_text(value);
+  if (unit == "%") return fmt::format("{:.2f} %", 100 * value);
+  return fmt::format("{:.0f}", value);
+}
+
+std::string criterion_line(const Criterion& c) {
+  if (!c.value)
+    return fmt::format("  {:<30} not measured: no scanner positions (--poses)\n", c.name);
+  return fmt::format("  {:<30} {:>10}  {} {:<9}  {}\n", c.name, value_text(*c.value, c.unit),
+                     c.is_minimum ? "at least" : "at most ", value_text(c.limit, c.unit),
+                     c.is_met() ? "passed" : "FAILED");
+}
+
+// The surfaces that are farthest from their points, by rms; those that are misplaced first.
+std::vector<SurfaceFidelity> worst_surfaces(const Fidelity& fidelity) {
+  std::vector<SurfaceFidelity> worst = fidelity.surfaces;
+  const auto is_misplaced = [&](const SurfaceFidelity& s) {
+    return std::find(fidelity.misplaced.begin(), fidelity.misplaced.end(), s.id) !=
+           fidelity.misplaced.end();
+  };
+  std::stable_sort(worst.begin(), worst.end(), [&](const auto& a, const auto& b) {
+    return std::pair(is_misplaced(a), a.rms) > std::pair(is_misplaced(b), b.rms);
+  });
+  worst.resize(std::min(worst.size(), kNamedSurfaces));
+  return worst;
+}
+
+}  // namespace
+
+void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses) {
+  if (poses.empty()) return;
+  cloud.viewpoints.clear();
+  for (const Vec3& pose : poses) cloud.viewpoints.push_back(pose - cloud.origin);
+}
+
+Fidelity fidelity_of(const World& world, const PointCloud& cloud) {
+  ReconstructOptions options;
+  apply_preset(options, preset_for(cloud));
+  const OptionList list = list_options(options);
+  const auto& used = world.provenance.options;
+  for (const Option& option : list)
+    if (option.name.starts_with("rival.scale.") && used.contains(option.name))
+      set_option(list, option.name, scanworld::text_of(used.at(option.name)));
+  const rival::Scale scale = rival::estimate_scale(cloud, options.rival.scale);
+  return measure_fidelity(
+      world, cloud,
+      {.noise = scale.noise, .spacing = scale.spacing, .depth_step = scale.depth_step});
+}
+
+Json json_of(const Fidelity& f) {
+  Json surfaces = Json::array(), criteria = Json::array();
+  for (const SurfaceFidelity& s : f.surfaces)
+    surfaces.push_back({{"id", s.id},
+                        {"area", s.area},
+                        {"points", s.points},
+                        {"rms", s.rms},
+                        {"offset", s.offset},
+                        {"coverage", json_of(s.coverage)}});
+  for (const Criterion& c : f.criteria)
+    criteria.push_back({{"name", c.name},
+                        {"value", json_of(c.value)},
+                        {c.is_minimum ? "at_least" : "at_most", c.limit},
+                        {"met", c.value ? Json(c.is_met()) : Json(nullptr)}});
+  return {{"faithful", f.is_faithful()},
+          {"verdict", verdict_of(f)},
+          {"points", f.points},
+          {"places", f.places},
+          {"rays", f.rays},
+          {"noise", f.noise},
+          {"spacing", f.spacing},
+          {"tolerance", f.tolerance},
+          {"scan_to_world", json_of(f.scan_to_world)},
+          {"world_to_scan", json_of(f.world_to_scan)},
+          {"coverage", f.coverage},
+          {"unexplained", f.unexplained},
+          {"free_space_violations", json_of(f.free_space_violations)},
+          {"leaks", json_of(f.leaks)},
+          {"misplaced", f.misplaced},
+          {"criteria", criteria},
+          {"surfaces", surfaces}};
+}
+
+std::string verdict_of(const Fidelity& fidelity) {
+  std::string failed;
+  for (const Criterion& c : fidelity.criteria)
+    if (!c.is_met())
+      failed +=
+          fmt::format("{}{} {}", failed.empty() ? "" : ", ", c.name, value_text(*c.value, c.unit));
+  return failed.empty() ? "faithful" : "not faithful: " + failed;
+}
+
+std::string text_of(const Fidelity& f, const World& world) {
+  std::string text = fmt::format(
+      "looked at {} points, {} places on surfaces and {} rays; noise {}, spacing {}, tolerance {}\n"
+      "{:<18} median {:>9}, 95 % within {:>9}\n{:<18} median {:>9}, 95 % within {:>9}\n",
+      grouped(f.points), grouped(f.places), grouped(f.rays), length_text(f.noise),
+      length_text(f.spacing), length_text(f.tolerance), "scan to world",
+      length_text(f.scan_to_world.median), length_text(f.scan_to_world.p95), "world to scan",
+      length_text(f.world_to_scan.median), length_text(f.world_to_scan.p95));
+  text += "surfaces farthest from their points\n";
+  for (const SurfaceFidelity& s : worst_surfaces(f)) {
+    const auto at = static_cast<std::size_t>(
+        std::find_if(world.surfaces.begin(), world.surfaces.end(),
+                     [&](const Surface& surface) { return surface.id == s.id; }) -
+        world.surfaces.begin());
+    text += fmt::format("  {:>5} {:<8} {:8.2f} m2  rms {:>8}  off by {:>8}  {} points\n", s.id,
+                        name_of(world.surfaces[at].kind), s.area, length_text(s.rms),
+                        length_text(s.offset), grouped(s.points));
+  }
+  text += "criteria\n";
+  for (const Criterion& c : f.criteria) text += criterion_line(c);
+  return text + fmt::format("verdict: {}\n", verdict_of(f));
+}
+
+}  // namespace scanworld::cli

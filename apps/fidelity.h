@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `build` and `check` share about a scan, its poses and how true a world is to it.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "world/fidelity.h"
+
+namespace scanworld::cli {
+
+// Gives a cloud these scanner positions, in the coordinates of the file, in place of its own; none
+// leave it as it is.
+void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses);
+
+// Measures a world against its scan, whose noise and spacing are found as the world's own options
+// say, so that `check` finds what `build` found.
+Fidelity fidelity_of(const World& world, const PointCloud& cloud);
+
+// Shares, lengths in metres; null for what was not measured.
+nlohmann::ordered_json json_of(const Fidelity& fidelity);
+
+// The figures, the surfaces farthest from their points, each criterion, and the verdict.
+std::string text_of(const Fidelity& fidelity, const World& world);
+
+// "faithful", or "not faithful: " and the criteria that are not met.
+std::string verdict_of(const Fidelity& fidelity);
+
+}  // namespace scanworld::cli

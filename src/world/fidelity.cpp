@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fidelity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "../error.h"
+#include "../mix.h"
+#include "../parallel.h"
+#include "cloud_in_world.h"
+#include "near_points.h"
+#include "ray_scene.h"
+#include "sight_lines.h"
+#include "solids.h"
+#include "triangulate.h"
+
+namespace scanworld {
+
+namespace {
+
+constexpr std::size_t kPart = 1 << 14;
+constexpr double kFewPoints = 0.01;  // share near the world below which it is of another place
+
+// About `wanted` points of the cloud, chosen and ordered by their coordinates.
+std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
+  struct Ranked {
+    std::uint64_t rank;
+    std::uint32_t point;
+  };
+  const double share =
+      static_cast<double>(wanted) / static_cast<double>(std::max(wanted, cloud.size()));
+  const auto limit = static_cast<std::uint64_t>(share * 0x1p53);
+  std::vector<std::vector<Ranked>> parts(part_count(cloud.size(), kPart));
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const auto [begin, end] = part_of(i, cloud.size(), kPart);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3f p = cloud.cloud().points[k] + Vec3f::Zero();  // makes -0 a 0
+      const auto bits = [&](int axis) {
+        return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(p[axis]));
+      };
+      const std::uint64_t rank = mix(mix(bits(0) << 32 | bits(1)) ^ (bits(2) + 1)) >> 11;
+      if (rank <= limit) parts[i].push_back({rank, static_cast<std::uint32_t>(k)});
+    }
+  });
+  std::vector<Ranked> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  const auto xyz = [&](const Ranked& r) { return cloud.cloud().points[r.point].data(); };
+  std::sort(all.begin(), all.end(), [&](const Ranked& a, const Ranked& b) {
+    if (a.rank != b.rank) return a.rank < b.rank;
+    return std::lexicographical_compare(xyz(a), xyz(a) + 3, xyz(b), xyz(b) + 3);
+  });
+  std::vector<Vec3> points;
+  for (const Ranked& r : all) points.push_back(cloud.point(r.point));
+  return points;
+}
+
+// A place on a surface, which stands for some area.
+struct Place {
+  Vec3 at;
+  std::size_t surface;
+  double area;  // [m2]
+};
+
+// Places spread evenly over the measured surfaces: at equal steps of area through a surface's
+// triangles one after the other, in each by a sequence that fills it evenly (Roberts 2018, R2).
+std::vector<Place> sample_surfaces(const World& world, const FidelityOptions& options) {
+  const WorldMesh mesh = triangulate(world);
+  const auto corner = [&](std::size_t t, std::size_t k) -> const Vec3& {
+    return mesh.mesh.vertices[static_cast<std::size_t>(mesh.mesh.triangles[t][k])];
+  };
+  std::vector<double> area(mesh.surface.size()), whole(world.surfaces.size());
+  double total = 0;
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    area[t] = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm() / 2;
+    const auto s = static_cast<std::size_t>(mesh.surface[t]);
+    whole[s] += area[t];
+    if (world.surfaces[s].source == Source::measured) total += area[t];
+  }
+  std::vector<Place> places;
+  std::size_t owner = SIZE_MAX, taken = 0;
+  double step = 0, passed = 0;  // [m2] between places, and of the surface before this triangle
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    const auto s = static_cast<std::size_t>(mesh.surface[t]);
+    if (world.surfaces[s].source != Source::measured) continue;
+    if (s != owner) {
+      const double share = std::ceil(static_cast<double>(options.places) * whole[s] / total);
+      step = whole[s] / std::max(share, static_cast<double>(options.places_each));
+      owner = s, taken = 0, passed = 0;
+    }
+    passed += area[t];
+    for (; (static_cast<double>(taken) + 0.5) * step < passed; ++taken) {
+      double ignored = 0;
+      double u = std::modf(0.5 + 0.7548776662466927 * static_cast<double>(taken), &ignored),
+             v = std::modf(0.5 + 0.5698402909980532 * static_cast<double>(taken), &ignored);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      places.push_back(
+          {corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0)), s,
+           step});
+    }
+  }
+  return places;
+}
+
+// The smallest value that so many of the whole weight are not above.
+double quantile(std::vector<std::pair<double, double>> weighted, double share) {
+  std::sort(weighted.begin(), weighted.end());
+  double whole = 0, sum = 0;
+  for (const auto& [value, weight] : weighted) whole += weight;
+  for (const auto& [value, weight] : weighted)
+    if ((sum += weight) >= share * whole) return value;
+  return weighted.empty() ? 0 : weighted.back().first;
+}
+
+Distances distances_of(const std::vector<std::pair<double, double>>& weighted) {
+  return {quantile(weighted, 0.5), quantile(weighted, 0.95)};
+}
+
+// The points that are looked at, and what of the world is nearest to each.
+class Measurement {
+ public:
+  Measurement(const World& world, const PointCloud& cloud, const FidelityOptions& options)
+      : world_(world), cloud_(cloud, world.frame), options_(options), scene_(world) {
+    if (cloud.points.empty()) throw Error(Cause::bad_input, "the scan has no points");
+    points_ = sample_points(cloud_, options.points);
+    if (options.depth_step > 0)
+      camera_ = cloud.viewpoints.empty() ? cloud_.to_world(Vec3::Zero()) : viewpoints()[0];
+    for (const Obstacle& obstacle : world.obstacles) {
+      solids_.push_back(mesh_of(obstacle, world.frame));
+      boxes_.emplace_back();
+      for (const Vec3& v : solids_.back().vertices) boxes_.back().extend(v);
+    }
+    near_.resize(points_.size());
+    parallel_for(points_.size(), [&](std::size_t i) {
+      near_[i] = scene_.nearest(points_[i], options.max_distance);
+    });
+    refuse_another_place();
+  }
+
+  Fidelity run() {
+    Fidelity result{.points = points_.size(),
+                    .noise = options_.noise,
+                    .spacing = options_.spacing,
+                    .tolerance = tolerance_of(options_.noise)};
+    for (const Surface& s : world_.surfaces)
+      result.surfaces.push_back({.id = s.id, .area = area(world_, s)});
+    look_at_points(result);
+    look_at_places(result);
+    describe_surfaces(result);
+    if (!cloud_.cloud().viewpoints.empty()) look_along_rays(result);
+    return result;
+  }
+
+ private:
+  std::vector<Vec3> viewpoints() const { return cloud_.viewpoints(); }
+
+  double tolerance_of(double noise) const {
+    return std::max(options_.tolerance_per_noise * noise, options_.min_tolerance);
+  }
+  double noise_at(const Vec3& p) const {
+    return std::max(options_.noise, options_.depth_step * (p - camera_).squaredNorm());
+  }
+
+  void refuse_another_place() const {
+    const auto count = std::count_if(near_.begin(), near_.end(), [](const auto& n) { return !!n; });
+    if (static_cast<double>(count) >= kFewPoints * static_cast<double>(near_.size())) return;
+    Box3 box;
+    for (const Vec3& p : points_) box.extend(p);
+    const auto text = [&](const Box3& b) {
+      if (b.isEmpty()) return std::string("nowhere");
+      const Vec3 low = b.min() + world_.frame.origin, high = b.max() + world_.frame.origin;
+      return fmt::format("from {:.1f} {:.1f} {:.1f} to {:.1f} {:.1f} {:.1f}", low.x(), low.y(),
+                         low.z(), high.x(), high.y(), high.z());
+    };
+    throw Error(Cause::bad_input,
+                fmt::format("the world and the scan are of different places: {:.2g} % of the "
+                            "points are within {} m of the world (the scan goes {}, the world {})",
+                            100 * static_cast<double>(count) / static_cast<double>(near_.size()),
+                            options_.max_distance, text(box), text(bounds(world_))));
+  }
+
+  bool is_in_obstacle(const Vec3& p) const {
+    for (std::size_t o = 0; o < solids_.size(); ++o)
+      if (boxes_[o].contains(p) && contains(solids_[o], p)) return true;
+    return false;
+  }
+
+  void look_at_points(Fidelity& result) {
+    std::vector<std::pair<double, double>> distances(points_.size());
+    explained_.resize(points_.size());
+    parallel_for(points_.size(), [&](std::size_t i) {
+      double distance = near_[i] ? near_[i]->distance : options_.max_distance;
+      const double tolerance = tolerance_of(noise_at(points_[i]));
+      if (distance > tolerance && is_in_obstacle(points_[i])) distance = 0;
+      explained_[i] = distance <= tolerance;
+      distances[i] = {distance, 1};
+    });
+    result.scan_to_world = distances_of(distances);
+    result.unexplained = static_cast<double>(std::count(explained_.begin(), explained_.end(), 0)) /
+                         static_cast<double>(points_.size());
+  }
+
+  void look_at_places(Fidelity& result) const {
+    const std::vector<Place> places = sample_surfaces(world_, options_);
+    std::vector<Vec3> at;
+    for (const Place& place : places) at.push_back(place.at);
+    const double cover =
+        std::min(options_.max_distance,
+                 std::hypot(options_.cover_per_spacing * options_.spacing, result.tolerance));
+    const std::vector<double> distances =
+        nearest_point_distances(at, cloud_, cover, options_.max_distance);
+    std::vector<std::pair<double, double>> weighted;
+    std::vector<double> covered(world_.surfaces.size()), whole(world_.surfaces.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      weighted.emplace_back(distances[i], places[i].area);
+      whole[places[i].surface] += places[i].area;
+      if (distances[i] <= cover) covered[places[i].surface] += places[i].area;
+    }
+    for (std::size_t s = 0; s < whole.size(); ++s)
+      if (whole[s] > 0) result.surfaces[s].coverage = covered[s] / whole[s];
+    const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
+    result.places = places.size();
+    result.world_to_scan = distances_of(weighted);
+    result.coverage = all > 0 ? std::accumulate(covered.begin(), covered.end(), 0.0) / all : 0;
+  }
+
+  void describe_surfaces(Fidelity& result) const {
+    struct Sums {
+      double squares = 0;
+      std::vector<std::pair<double, double>> offsets;
+    };
+    std::vector<Sums> sums(world_.surfaces.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!near_[i] || !near_[i]->is_surface) continue;
+      const double noise_ratio = noise_at(points_[i]) / options_.noise;
+      if (near_[i]->distance > options_.reach * noise_ratio) continue;
+      Sums& s = sums[near_[i]->index];
+      s.squares += near_[i]->distance * near_[i]->distance;
+      s.offsets.emplace_back(world_.surfaces[near_[i]->index].plane.signed_distance(points_[i]), 1);
+    }
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      SurfaceFidelity& surface = result.surfaces[s];
+      surface.points = sums[s].offsets.size();
+      if (surface.points == 0) continue;
+      surface.rms = std::sqrt(sums[s].squares / static_cast<double>(surface.points));
+      surface.offset = quantile(sums[s].offsets, 0.5);
+      if (surface.points >= options_.min_points_each &&
+          std::abs(surface.offset) > options_.max_offset_per_tolerance * result.tolerance)
+        result.misplaced.push_back(surface.id);
+    }
+  }
+
+  // Rays to all that is there: points that the world explains, and others where the scan is
+  // planar. The rest may be stray points or a mirror's, of which no ray came.
+  void look_along_rays(Fidelity& result) const {
+    std::vector<Vec3> others;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (!explained_[i]) others.push_back(points_[i]);
+    const auto normals = planar_normals(
+        others, cloud_,
+        {.cell = std::max(options_.planar_cell, 12 * options_.noise), .noise = options_.noise});
+    std::vector<SeenPoint> seen;
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!explained_[i]) {
+        if (const auto& normal = normals[other++]) seen.push_back({points_[i], normal});
+      } else if (near_[i] && near_[i]->is_surface) {
+        seen.push_back({points_[i], world_.surfaces[near_[i]->index].plane.normal});
+      } else {
+        seen.push_back({points_[i], {}});
+      }
+    }
+    const SightLines lines = follow_sight_lines(seen, viewpoints(), scene_,
+                                                {.before = options_.before,
+                                                 .behind = options_.behind,
+                                                 .min_range = options_.min_range,
+                                                 .max_incidence = options_.max_incidence});
+    result.rays = lines.free_rays;
+    const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
+      if (whole == 0) return std::nullopt;
+      return static_cast<double>(part) / static_cast<double>(whole);
+    };
+    result.free_space_violations = share(lines.violations, lines.free_rays);
+    result.leaks = share(lines.leaks, lines.ending_rays);
+  }
+
+  const World& world_;
+  const CloudInWorld cloud_;
+  const FidelityOptions& options_;
+  const RayScene scene_;
+  Vec3 camera_ = Vec3::Zero();
+  std::vector<Vec3> points_;
+  std::vector<std::optional<Nearest>> near_;  // of each point
+  std::vector<char> explained_;               // whether each point is near a surface or obstacle
+  std::vector<Mesh> solids_;                  // the obstacles
+  std::vector<Box3> boxes_;                   // around them
+};
+
+void judge(Fidelity& f, const FidelityOptions& o) {
+  f.criteria = {
+      {"median distance of the points", "m", f.scan_to_world.median,
+       std::max(o.max_median_per_noise * f.noise, o.min_tolerance / 2)},
+      {"unexplained points", "%", f.unexplained, o.max_unexplained},
+      {"coverage of the surfaces", "%", f.coverage, o.min_coverage, true},
+      {"surfaces off their points", "", static_cast<double>(f.misplaced.size()), 0},
+      {"free-space violations", "%", f.free_space_violations, o.max_violations},
+      {"leaks", "%", f.leaks, o.max_leaks},
+  };
+}
+
+}  // namespace
+
+bool Fidelity::is_faithful() const {
+  return std::all_of(criteria.begin(), criteria.end(),
+                     [](const Criterion& c) { return c.is_met(); });
+}
+
+Fidelity measure_fidelity(const World& world, const PointCloud& cloud,
+                          const FidelityOptions& options) {
+  Fidelity result = Measurement(world, cloud, options).run();
+  judge(result, options);
+  return result;
+}
+
+}  // namespace scanworld

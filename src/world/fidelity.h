@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How true a world is to a scan of it. docs/fidelity.md says what each figure means.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "world.h"
+
+namespace scanworld {
+
+struct FidelityOptions {
+  // What the scan is like; to be measured on the scan, not on the world.
+  double noise = 0.01;    // [m] standard deviation of the points off what they were measured on
+  double spacing = 0.02;  // [m] between neighbouring points
+  double depth_step = 0;  // [1/m] a depth camera's noise is at least this times range squared
+
+  // What counts as near.
+  double tolerance_per_noise = 4;  // a point on a surface is hardly ever farther from it than this,
+                                   // and a surface may be off by some noise itself
+  double min_tolerance = 0.01;     // [m] and nobody minds this much
+  double reach = 0.1;            // [m] points that are no farther from the surface that is nearest
+                                 // to them tell whether it is in its place
+  double cover_per_spacing = 4;  // a place is covered if a point is so near; far from the scanner
+                                 // points are some times farther apart than on average
+  double max_distance = 1;       // [m] what is farther apart counts as this far
+
+  // How much is looked at.
+  std::size_t points = 100000;   // of the scan, about
+  std::size_t places = 40000;    // on the surfaces, about
+  std::size_t places_each = 16;  // at least, on each surface
+
+  // Rays from the scanners.
+  double before = 0.1;           // [m] free space ends so far before a point
+  double behind = 0.2;           // [m] a surface at a point is met at the latest so far behind it
+  double min_range = 0.3;        // [m] of points whose rays tell of free space
+  double max_incidence = 1.309;  // [rad] off a surface's normal (75 degrees): beyond, a centimetre
+                                 // of noise would decide
+  double planar_cell = 0.2;  // [m] points that no surface explains are taken for one where they
+                             // are planar over so much
+
+  // The limits of the verdict.
+  double max_median_per_noise = 1.5;      // of the distance scan to world; 0.67 where all is right
+  double min_coverage = 0.8;              // share of the area
+  double max_unexplained = 0.1;           // share of the points
+  double max_offset_per_tolerance = 0.5;  // of a surface from the median of its points
+  std::size_t min_points_each = 30;       // of a surface whose place is judged
+  double max_violations = 0.02;           // share of the rays
+  double max_leaks = 0.02;                // share of the rays
+};
+
+// Of distances between a scan and a world [m], up to FidelityOptions::max_distance.
+struct Distances {
+  double median = 0, p95 = 0;
+};
+
+// How a surface lies among the points that are nearest to it and within reach.
+struct SurfaceFidelity {
+  int id = 0;
+  double area = 0;                 // [m2]
+  std::size_t points = 0;          // of those that were looked at
+  double rms = 0;                  // [m] of their distances
+  double offset = 0;               // [m] their median, to the free side; zero where there are none
+  std::optional<double> coverage;  // share of the area that has points near; not of inferred ones
+};
+
+// One thing that a world must keep to be called faithful.
+struct Criterion {
+  std::string name, unit;       // the unit is "m", "%" or empty for a count
+  std::optional<double> value;  // nothing where it could not be measured
+  double limit = 0;
+  bool is_minimum = false;  // else the limit is a maximum
+
+  bool is_met() const { return !value || (is_minimum ? *value >= limit : *value <= limit); }
+};
+
+struct Fidelity {
+  std::size_t points = 0, places = 0, rays = 0;  // that were looked at
+  double noise = 0, spacing = 0, tolerance = 0;  // [m] as used
+  Distances scan_to_world, world_to_scan;
+  double coverage = 0;     // share of the surfaces' area that has points near
+  double unexplained = 0;  // share of the points farther than the tolerance from all there is
+  std::optional<double> free_space_violations;  // share of the rays that go through the world
+  std::optional<double> leaks;            // share of the rays that go on where they should end
+  std::vector<SurfaceFidelity> surfaces;  // in the order of the world's
+  std::vector<int> misplaced;             // ids of surfaces off the median of their points
+  std::vector<Criterion> criteria;
+
+  bool is_faithful() const;
+};
+
+inline std::size_t count_of(const Fidelity& fidelity) { return fidelity.criteria.size(); }
+
+// Measures a valid world against a scan of it, whose viewpoints are used where it has some. The
+// figures do not depend on the order of the points or the number of threads; of large scans a part
+// is looked at that the points' coordinates choose. Throws bad_input where the scan is empty, or
+// hardly a point of it is near the world: they are of different places.
+Fidelity measure_fidelity(const World& world, const PointCloud& cloud,
+                          const FidelityOptions& options = {});
+
+}  // namespace scanworld

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sight_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../parallel.h"
+
+namespace scanworld {
+
+namespace {
+
+// The ray to a point, and whether the world lets it through.
+struct Sight {
+  Vec3 direction;  // unit vector
+  double range;    // [m]
+  bool is_free;
+};
+
+Sight look_from(const Vec3& viewpoint, const Vec3& point, const RayScene& scene,
+                const SightOptions& options) {
+  const Vec3 way = point - viewpoint;
+  const double range = way.norm();
+  const Vec3 direction = range > 0 ? Vec3(way / range) : Vec3::UnitZ();
+  return {direction, range,
+          range <= options.before || scene.is_free(viewpoint, point - options.before * direction)};
+}
+
+Sight find_sight(const Vec3& point, const std::vector<Vec3>& viewpoints, const RayScene& scene,
+                 const SightOptions& options) {
+  const Vec3& nearest = nearest_of(viewpoints, point);
+  const Sight first = look_from(nearest, point, scene, options);
+  if (first.is_free || viewpoints.size() == 1) return first;
+  std::vector<Vec3> others = viewpoints;
+  std::stable_sort(others.begin(), others.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  });
+  for (const Vec3& viewpoint : others)
+    if (const Sight sight = look_from(viewpoint, point, scene, options); sight.is_free)
+      return sight;
+  return first;
+}
+
+}  // namespace
+
+SightLines follow_sight_lines(const std::vector<SeenPoint>& points,
+                              const std::vector<Vec3>& viewpoints, const RayScene& scene,
+                              const SightOptions& options) {
+  constexpr std::size_t kPart = 256;
+  std::vector<SightLines> parts(part_count(points.size(), kPart));
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const auto [begin, end] = part_of(i, points.size(), kPart);
+    SightLines& lines = parts[i];
+    for (std::size_t k = begin; k < end; ++k) {
+      const SeenPoint& p = points[k];
+      const Sight sight = find_sight(p.at, viewpoints, scene, options);
+      if (p.normal && std::abs(p.normal->dot(sight.direction)) < std::cos(options.max_incidence))
+        continue;
+      if (sight.range > options.min_range) ++lines.free_rays, lines.violations += !sight.is_free;
+      if (!p.normal) continue;
+      ++lines.ending_rays;
+      lines.leaks += scene.is_free(p.at - options.before * sight.direction,
+                                   p.at + options.behind * sight.direction);
+    }
+  });
+  SightLines all;
+  for (const SightLines& lines : parts) {
+    all.free_rays += lines.free_rays, all.violations += lines.violations;
+    all.ending_rays += lines.ending_rays, all.leaks += lines.leaks;
+  }
+  return all;
+}
+
+}  // namespace scanworld
