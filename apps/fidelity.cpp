@@ -96,6 +96,7 @@ Json json_of(const Fidelity& f) {
           {"noise", f.noise},
           {"spacing", f.spacing},
           {"tolerance", f.tolerance},
+          {"max_distance", f.max_distance},
           {"scan_to_world", json_of(f.scan_to_world)},
           {"world_to_scan", json_of(f.world_to_scan)},
           {"coverage", f.coverage},

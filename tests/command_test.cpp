@@ -268,6 +268,47 @@ TEST_CASE("check says what is wrong with a world, with exit code 5") {
   CHECK(run({"check", write_file(folder / "no.json", "{")}).code == 3);
 }
 
+TEST_CASE(
+    "check measures a world against its scan as build did, with or without poses, and gives a "
+    "verdict") {
+  const TempFolder folder;
+  const fs::path world = in_project("worlds/room.json"), scan = folder / "s.ply",
+                 poses = folder / "p.txt";
+  CHECK(run({"scan", world, "-o", scan, "--points", "60000", "--save-poses", poses}).code == 0);
+  const Outcome good = run({"check", world, scan, "--poses", poses});
+  CHECK_MESSAGE(good.code == 0, good.out);
+  for (const char* told : {"valid", "coverage", "leaks", "verdict: faithful\n"})
+    CHECK(contains(good.out, told));
+  CHECK(contains(run({"check", world, scan}).out, "not measured"));
+
+  CHECK(run({"build", scan, "--poses", poses, "-o", folder / "w", "--export", "none"}).code == 0);
+  const Json built = Json::parse(read_file(folder / "w" / "report.json"))["fidelity"];
+  const Json checked =
+      Json::parse(run({"check", folder / "w", scan, "--poses", poses, "--json"}).out)["fidelity"];
+  CHECK(checked == built);
+  CHECK(checked["free_space_violations"].is_number());
+  CHECK(
+      Json::parse(run({"check", folder / "w", scan, "--json"}).out)["fidelity"]["leaks"].is_null());
+
+  World less = read_world(world);
+  less.surfaces.pop_back();
+  less.rooms.clear();
+  write_world(folder / "less.json", less);
+  const Outcome bad = run({"check", folder / "less.json", scan, "--poses", poses});
+  CHECK(bad.code == 5);
+  CHECK(contains(bad.out, "FAILED"));
+  CHECK(contains(bad.out, "verdict: not faithful: "));
+  CHECK(contains(bad.err, "not faithful"));
+
+  less.frame.origin = {0, 500, 0};
+  write_world(folder / "far.json", less);
+  const Outcome far = run({"check", folder / "far.json", scan});
+  CHECK(far.code == 3);
+  CHECK(contains(far.err, "different places"));
+  CHECK(run({"check", world, "--poses", poses}).code == 2);
+  CHECK(run({"check", world, folder / "absent.ply"}).code == 3);
+}
+
 TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
   const TempFolder folder;
   CHECK(run({"scan", in_project("worlds/room.json"), "-o", folder / "s.ply", "--points", "100000",

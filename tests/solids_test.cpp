@@ -57,3 +57,17 @@ TEST_CASE("points without a volume have no hull") {
                                  ConvexHull{{{0, 0, 0}, {1, 0, 0}}}, ConvexHull{}})
     error_of(Cause::check_failed, [&] { mesh_of(flat); });
 }
+
+TEST_CASE("a convex solid contains the mean of its corners, and nothing beyond a corner") {
+  Random random(4);
+  for (const Obstacle& obstacle : full_world().obstacles) {
+    const Mesh mesh = mesh_of(obstacle, {});
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& v : mesh.vertices) middle += v / static_cast<double>(mesh.vertices.size());
+    CHECK(contains(mesh, middle));
+    for (const Vec3& v : mesh.vertices) {
+      CHECK(contains(mesh, middle + 0.999 * (v - middle)));
+      CHECK_FALSE(contains(mesh, middle + 1.001 * (v - middle)));
+    }
+  }
+}

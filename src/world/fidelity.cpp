@@ -116,6 +116,23 @@ double quantile(std::vector<std::pair<double, double>> weighted, double share) {
   return weighted.empty() ? 0 : weighted.back().first;
 }
 
+// Where most of some numbers are: the median of those in the densest window of this width.
+double densest(std::vector<double> values, double width) {
+  std::sort(values.begin(), values.end());
+  std::size_t best = 0, most = 0;
+  for (std::size_t i = 0, end = 0; i < values.size(); ++i) {
+    while (end < values.size() && values[end] <= values[i] + width) ++end;
+    if (end - i > most) best = i, most = end - i;
+  }
+  return values[best + most / 2];
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 Distances distances_of(const std::vector<std::pair<double, double>>& weighted) {
   return {quantile(weighted, 0.5), quantile(weighted, 0.95)};
 }
@@ -126,6 +143,8 @@ class Measurement {
   Measurement(const World& world, const PointCloud& cloud, const FidelityOptions& options)
       : world_(world), cloud_(cloud, world.frame), options_(options), scene_(world) {
     if (cloud.points.empty()) throw Error(Cause::bad_input, "the scan has no points");
+    cover_ = std::hypot(options.cover_per_spacing * options.spacing, tolerance_of(options.noise));
+    max_distance_ = std::max(options.max_distance, 2 * cover_);
     points_ = sample_points(cloud_, options.points);
     if (options.depth_step > 0)
       camera_ = cloud.viewpoints.empty() ? cloud_.to_world(Vec3::Zero()) : viewpoints()[0];
@@ -134,18 +153,23 @@ class Measurement {
       boxes_.emplace_back();
       for (const Vec3& v : solids_.back().vertices) boxes_.back().extend(v);
     }
+    noise_.resize(points_.size());
     near_.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
-      near_[i] = scene_.nearest(points_[i], options.max_distance);
+      noise_[i] =
+          std::max(options.noise, options.depth_step * (points_[i] - camera_).squaredNorm());
+      near_[i] = scene_.nearest(points_[i], max_distance_);
     });
     refuse_another_place();
   }
 
   Fidelity run() {
+    const double noise = median(noise_);
     Fidelity result{.points = points_.size(),
-                    .noise = options_.noise,
+                    .noise = noise,
                     .spacing = options_.spacing,
-                    .tolerance = tolerance_of(options_.noise)};
+                    .tolerance = tolerance_of(noise),
+                    .max_distance = max_distance_};
     for (const Surface& s : world_.surfaces)
       result.surfaces.push_back({.id = s.id, .area = area(world_, s)});
     look_at_points(result);
@@ -160,9 +184,6 @@ class Measurement {
 
   double tolerance_of(double noise) const {
     return std::max(options_.tolerance_per_noise * noise, options_.min_tolerance);
-  }
-  double noise_at(const Vec3& p) const {
-    return std::max(options_.noise, options_.depth_step * (p - camera_).squaredNorm());
   }
 
   void refuse_another_place() const {
@@ -180,7 +201,7 @@ class Measurement {
                 fmt::format("the world and the scan are of different places: {:.2g} % of the "
                             "points are within {} m of the world (the scan goes {}, the world {})",
                             100 * static_cast<double>(count) / static_cast<double>(near_.size()),
-                            options_.max_distance, text(box), text(bounds(world_))));
+                            max_distance_, text(box), text(bounds(world_))));
   }
 
   bool is_in_obstacle(const Vec3& p) const {
@@ -193,8 +214,8 @@ class Measurement {
     std::vector<std::pair<double, double>> distances(points_.size());
     explained_.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
-      double distance = near_[i] ? near_[i]->distance : options_.max_distance;
-      const double tolerance = tolerance_of(noise_at(points_[i]));
+      double distance = near_[i] ? near_[i]->distance : max_distance_;
+      const double tolerance = tolerance_of(noise_[i]);
       if (distance > tolerance && is_in_obstacle(points_[i])) distance = 0;
       explained_[i] = distance <= tolerance;
       distances[i] = {distance, 1};
@@ -218,7 +239,7 @@ class Measurement {
     for (std::size_t i = 0; i < places.size(); ++i) {
       weighted.emplace_back(distances[i], places[i].area);
       whole[places[i].surface] += places[i].area;
-      if (distances[i] <= cover) covered[places[i].surface] += places[i].area;
+      if (distances[i] <= cover_) covered[places[i].surface] += places[i].area;
     }
     for (std::size_t s = 0; s < whole.size(); ++s)
       if (whole[s] > 0) result.surfaces[s].coverage = covered[s] / whole[s];
@@ -229,27 +250,28 @@ class Measurement {
   }
 
   void describe_surfaces(Fidelity& result) const {
-    struct Sums {
+    struct Around {
       double squares = 0;
-      std::vector<std::pair<double, double>> offsets;
+      std::vector<double> offsets, noise;
     };
-    std::vector<Sums> sums(world_.surfaces.size());
+    std::vector<Around> around(world_.surfaces.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!near_[i] || !near_[i]->is_surface) continue;
-      const double noise_ratio = noise_at(points_[i]) / options_.noise;
-      if (near_[i]->distance > options_.reach * noise_ratio) continue;
-      Sums& s = sums[near_[i]->index];
-      s.squares += near_[i]->distance * near_[i]->distance;
-      s.offsets.emplace_back(world_.surfaces[near_[i]->index].plane.signed_distance(points_[i]), 1);
+      const double reach = std::max(options_.reach, 3 * tolerance_of(noise_[i]));
+      if (!near_[i] || !near_[i]->is_surface || near_[i]->distance > reach) continue;
+      const std::size_t s = near_[i]->index;
+      around[s].squares += near_[i]->distance * near_[i]->distance;
+      around[s].offsets.push_back(world_.surfaces[s].plane.signed_distance(points_[i]));
+      around[s].noise.push_back(noise_[i]);
     }
-    for (std::size_t s = 0; s < sums.size(); ++s) {
+    for (std::size_t s = 0; s < around.size(); ++s) {
       SurfaceFidelity& surface = result.surfaces[s];
-      surface.points = sums[s].offsets.size();
+      surface.points = around[s].offsets.size();
       if (surface.points == 0) continue;
-      surface.rms = std::sqrt(sums[s].squares / static_cast<double>(surface.points));
-      surface.offset = quantile(sums[s].offsets, 0.5);
+      const double tolerance = tolerance_of(median(around[s].noise));
+      surface.rms = std::sqrt(around[s].squares / static_cast<double>(surface.points));
+      surface.offset = densest(around[s].offsets, tolerance);
       if (surface.points >= options_.min_points_each &&
-          std::abs(surface.offset) > options_.max_offset_per_tolerance * result.tolerance)
+          std::abs(surface.offset) > options_.max_offset_per_tolerance * tolerance)
         result.misplaced.push_back(surface.id);
     }
   }
@@ -292,8 +314,10 @@ class Measurement {
   const CloudInWorld cloud_;
   const FidelityOptions& options_;
   const RayScene scene_;
+  double cover_ = 0, max_distance_ = 0;  // [m]
   Vec3 camera_ = Vec3::Zero();
   std::vector<Vec3> points_;
+  std::vector<double> noise_;                 // [m] of each point
   std::vector<std::optional<Nearest>> near_;  // of each point
   std::vector<char> explained_;               // whether each point is near a surface or obstacle
   std::vector<Mesh> solids_;                  // the obstacles

@@ -19,14 +19,15 @@ struct FidelityOptions {
   double depth_step = 0;  // [1/m] a depth camera's noise is at least this times range squared
 
   // What counts as near.
-  double tolerance_per_noise = 4;  // a point on a surface is hardly ever farther from it than this,
-                                   // and a surface may be off by some noise itself
-  double min_tolerance = 0.01;     // [m] and nobody minds this much
-  double reach = 0.1;            // [m] points that are no farther from the surface that is nearest
-                                 // to them tell whether it is in its place
+  double tolerance_per_noise = 4;  // a point on a surface is hardly ever farther from it than three
+                                   // times the noise, and the surface may be off by as much as one
+  double min_tolerance = 0.01;     // [m] nobody minds so little
+  double reach = 0.1;  // [m] points that are no farther from the surface that is nearest to them
+                       // tell whether it is in its place; at least three times the tolerance
   double cover_per_spacing = 4;  // a place is covered if a point is so near; far from the scanner
-                                 // points are some times farther apart than on average
-  double max_distance = 1;       // [m] what is farther apart counts as this far
+                                 // points are some times farther apart than in the middle
+  double max_distance = 0.5;     // [m] what is farther apart counts as this far; at least twice as
+                                 // far as what is covered
 
   // How much is looked at.
   std::size_t points = 100000;   // of the scan, about
@@ -39,20 +40,20 @@ struct FidelityOptions {
   double min_range = 0.3;        // [m] of points whose rays tell of free space
   double max_incidence = 1.309;  // [rad] off a surface's normal (75 degrees): beyond, a centimetre
                                  // of noise would decide
-  double planar_cell = 0.2;  // [m] points that no surface explains are taken for one where they
-                             // are planar over so much
+  double planar_cell = 0.4;  // [m] points that no surface explains lie on one where they are planar
+                             // over so much; round things of half a metre are not
 
   // The limits of the verdict.
-  double max_median_per_noise = 1.5;      // of the distance scan to world; 0.67 where all is right
-  double min_coverage = 0.8;              // share of the area
-  double max_unexplained = 0.1;           // share of the points
-  double max_offset_per_tolerance = 0.5;  // of a surface from the median of its points
+  double max_median_per_noise = 1.5;  // of the distance scan to world; 0.67 where all is right
+  double max_unexplained = 0.05;      // share of the points; strays and mixed pixels are some 2 %
+  double min_coverage = 0.9;          // share of the area; furniture hides some of a room
+  double max_offset_per_tolerance = 0.5;  // of a surface from where most of its points are
   std::size_t min_points_each = 30;       // of a surface whose place is judged
-  double max_violations = 0.02;           // share of the rays
+  double max_violations = 0.01;           // share of the rays
   double max_leaks = 0.02;                // share of the rays
 };
 
-// Of distances between a scan and a world [m], up to FidelityOptions::max_distance.
+// Of distances between a scan and a world [m], up to Fidelity::max_distance.
 struct Distances {
   double median = 0, p95 = 0;
 };
@@ -60,10 +61,10 @@ struct Distances {
 // How a surface lies among the points that are nearest to it and within reach.
 struct SurfaceFidelity {
   int id = 0;
-  double area = 0;                 // [m2]
-  std::size_t points = 0;          // of those that were looked at
-  double rms = 0;                  // [m] of their distances
-  double offset = 0;               // [m] their median, to the free side; zero where there are none
+  double area = 0;         // [m2]
+  std::size_t points = 0;  // of those that were looked at
+  double rms = 0;          // [m] of their distances
+  double offset = 0;  // [m] of where most of them are, to the free side; zero where there are none
   std::optional<double> coverage;  // share of the area that has points near; not of inferred ones
 };
 
@@ -79,14 +80,16 @@ struct Criterion {
 
 struct Fidelity {
   std::size_t points = 0, places = 0, rays = 0;  // that were looked at
-  double noise = 0, spacing = 0, tolerance = 0;  // [m] as used
+  double noise = 0, spacing = 0;  // [m] as given; of a depth camera's points the median noise
+  double tolerance = 0;           // [m] at this noise
+  double max_distance = 0;        // [m] as used
   Distances scan_to_world, world_to_scan;
   double coverage = 0;     // share of the surfaces' area that has points near
   double unexplained = 0;  // share of the points farther than the tolerance from all there is
   std::optional<double> free_space_violations;  // share of the rays that go through the world
   std::optional<double> leaks;            // share of the rays that go on where they should end
   std::vector<SurfaceFidelity> surfaces;  // in the order of the world's
-  std::vector<int> misplaced;             // ids of surfaces off the median of their points
+  std::vector<int> misplaced;             // ids of surfaces that are off their points
   std::vector<Criterion> criteria;
 
   bool is_faithful() const;
