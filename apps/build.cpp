@@ -128,6 +128,7 @@ void tell(const Request& request, const ReconstructResult& result, const Json& r
   for (const StageReport& s : result.report.stages)
     request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name,
                                      1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
+  request.console.note("the world is " + report["fidelity"]["verdict"].get<std::string>());
   if (request.json)
     print_json(report);
   else

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <tuple>
 
 #include "cli.h"
 #include "reconstruct.h"
@@ -17,6 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kNamedSurfaces = 5;  // in the text
+constexpr std::size_t kFewPoints = 10;     // say little about a surface
 
 Json json_of(const Distances& d) { return {{"median", d.median}, {"p95", d.p95}}; }
 
@@ -41,13 +44,10 @@ std::string criterion_line(const Criterion& c) {
 // The surfaces that are farthest from their points, by rms; those that are misplaced first.
 std::vector<SurfaceFidelity> worst_surfaces(const Fidelity& fidelity) {
   std::vector<SurfaceFidelity> worst = fidelity.surfaces;
-  const auto is_misplaced = [&](const SurfaceFidelity& s) {
-    return std::find(fidelity.misplaced.begin(), fidelity.misplaced.end(), s.id) !=
-           fidelity.misplaced.end();
+  const auto rank = [&](const SurfaceFidelity& s) {
+    return std::tuple(std::ranges::count(fidelity.misplaced, s.id), s.points >= kFewPoints, s.rms);
   };
-  std::stable_sort(worst.begin(), worst.end(), [&](const auto& a, const auto& b) {
-    return std::pair(is_misplaced(a), a.rms) > std::pair(is_misplaced(b), b.rms);
-  });
+  std::ranges::stable_sort(worst, std::greater(), rank);
   worst.resize(std::min(worst.size(), kNamedSurfaces));
   return worst;
 }
@@ -127,13 +127,10 @@ std::string text_of(const Fidelity& f, const World& world) {
       length_text(f.world_to_scan.median), length_text(f.world_to_scan.p95));
   text += "surfaces farthest from their points\n";
   for (const SurfaceFidelity& s : worst_surfaces(f)) {
-    const auto at = static_cast<std::size_t>(
-        std::find_if(world.surfaces.begin(), world.surfaces.end(),
-                     [&](const Surface& surface) { return surface.id == s.id; }) -
-        world.surfaces.begin());
+    const auto surface = std::ranges::find(world.surfaces, s.id, &Surface::id);
     text += fmt::format("  {:>5} {:<8} {:8.2f} m2  rms {:>8}  off by {:>8}  {} points\n", s.id,
-                        name_of(world.surfaces[at].kind), s.area, length_text(s.rms),
-                        length_text(s.offset), grouped(s.points));
+                        name_of(surface->kind), s.area, length_text(s.rms), length_text(s.offset),
+                        grouped(s.points));
   }
   text += "criteria\n";
   for (const Criterion& c : f.criteria) text += criterion_line(c);

@@ -229,11 +229,8 @@ class Measurement {
     const std::vector<Place> places = sample_surfaces(world_, options_);
     std::vector<Vec3> at;
     for (const Place& place : places) at.push_back(place.at);
-    const double cover =
-        std::min(options_.max_distance,
-                 std::hypot(options_.cover_per_spacing * options_.spacing, result.tolerance));
     const std::vector<double> distances =
-        nearest_point_distances(at, cloud_, cover, options_.max_distance);
+        nearest_point_distances(at, cloud_, cover_, max_distance_);
     std::vector<std::pair<double, double>> weighted;
     std::vector<double> covered(world_.surfaces.size()), whole(world_.surfaces.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
