@@ -40,18 +40,23 @@ class CellTable {
 
   // Cell i is that of keys[i]; the keys are different.
   CellTable(const std::vector<std::uint64_t>& keys, double edge)
-      : edge_(edge), slots_(std::bit_ceil(2 * keys.size() + 1)) {
+      : edge_(edge),
+        slots_(std::bit_ceil(2 * keys.size() + 1)),
+        filter_(std::bit_ceil(keys.size() / 8 + 1)) {
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
-      std::size_t at = mix(keys[i]);
+      const std::uint64_t hash = mix(keys[i]);
+      std::size_t at = hash;
       while (slots_[at & (slots_.size() - 1)].cell != kNone) ++at;
       slots_[at & (slots_.size() - 1)] = {keys[i], i};
+      filter_[word_of(hash)] |= bit_of(hash);
     }
   }
 
   // The number of the cell that a point is in, or kNone.
   std::uint32_t find(const Vec3& p) const {
-    const std::uint64_t key = key_of(p, edge_);
-    for (std::size_t at = mix(key);; ++at) {
+    const std::uint64_t key = key_of(p, edge_), hash = mix(key);
+    if ((filter_[word_of(hash)] & bit_of(hash)) == 0) return kNone;
+    for (std::size_t at = hash;; ++at) {
       const Slot& slot = slots_[at & (slots_.size() - 1)];
       if (slot.cell == kNone || slot.key == key) return slot.cell;
     }
@@ -62,8 +67,13 @@ class CellTable {
     std::uint64_t key = 0;
     std::uint32_t cell = kNone;
   };
+  std::size_t word_of(std::uint64_t hash) const { return hash >> 38 & (filter_.size() - 1); }
+  static std::uint64_t bit_of(std::uint64_t hash) { return std::uint64_t{1} << (hash >> 32 & 63); }
+
   double edge_;  // [m]
   std::vector<Slot> slots_;
+  std::vector<std::uint64_t> filter_;  // some 8 bits a key, small enough for the cache: most points
+                                       // are in no cell and are done with here
 };
 
 }  // namespace scanworld

@@ -106,16 +106,6 @@ std::vector<Place> sample_surfaces(const World& world, const FidelityOptions& op
   return places;
 }
 
-// The smallest value that so many of the whole weight are not above.
-double quantile(std::vector<std::pair<double, double>> weighted, double share) {
-  std::sort(weighted.begin(), weighted.end());
-  double whole = 0, sum = 0;
-  for (const auto& [value, weight] : weighted) whole += weight;
-  for (const auto& [value, weight] : weighted)
-    if ((sum += weight) >= share * whole) return value;
-  return weighted.empty() ? 0 : weighted.back().first;
-}
-
 // Where most of some numbers are: the median of those in the densest window of this width.
 double densest(std::vector<double> values, double width) {
   std::sort(values.begin(), values.end());
@@ -133,8 +123,18 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Distances distances_of(const std::vector<std::pair<double, double>>& weighted) {
-  return {quantile(weighted, 0.5), quantile(weighted, 0.95)};
+// Of distances with what each of them stands for: the smallest that so much of the whole is within.
+Distances distances_of(std::vector<std::pair<double, double>> weighted) {
+  std::sort(weighted.begin(), weighted.end());
+  double whole = 0, sum = 0;
+  for (const auto& [distance, weight] : weighted) whole += weight;
+  Distances found;
+  for (const auto& [distance, weight] : weighted) {
+    if (sum < 0.5 * whole) found.median = distance;
+    if (sum < 0.95 * whole) found.p95 = distance;
+    sum += weight;
+  }
+  return found;
 }
 
 // The points that are looked at, and what of the world is nearest to each.
@@ -220,7 +220,7 @@ class Measurement {
       explained_[i] = distance <= tolerance;
       distances[i] = {distance, 1};
     });
-    result.scan_to_world = distances_of(distances);
+    result.scan_to_world = distances_of(std::move(distances));
     result.unexplained = static_cast<double>(std::count(explained_.begin(), explained_.end(), 0)) /
                          static_cast<double>(points_.size());
   }
@@ -230,7 +230,7 @@ class Measurement {
     std::vector<Vec3> at;
     for (const Place& place : places) at.push_back(place.at);
     const std::vector<double> distances =
-        nearest_point_distances(at, cloud_, cover_, max_distance_);
+        nearest_point_distances(at, cloud_, cover_ / 2, max_distance_);
     std::vector<std::pair<double, double>> weighted;
     std::vector<double> covered(world_.surfaces.size()), whole(world_.surfaces.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -242,7 +242,7 @@ class Measurement {
       if (whole[s] > 0) result.surfaces[s].coverage = covered[s] / whole[s];
     const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
     result.places = places.size();
-    result.world_to_scan = distances_of(weighted);
+    result.world_to_scan = distances_of(std::move(weighted));
     result.coverage = all > 0 ? std::accumulate(covered.begin(), covered.end(), 0.0) / all : 0;
   }
 

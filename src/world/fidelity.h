@@ -31,7 +31,7 @@ struct FidelityOptions {
 
   // How much is looked at.
   std::size_t points = 100000;   // of the scan, about
-  std::size_t places = 40000;    // on the surfaces, about
+  std::size_t places = 20000;    // on the surfaces, about
   std::size_t places_each = 16;  // at least, on each surface
 
   // Rays from the scanners.

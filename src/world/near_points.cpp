@@ -135,7 +135,7 @@ std::vector<double> nearest_point_distances(const std::vector<Vec3>& places,
   std::vector<float> squared(places.size(), std::numeric_limits<float>::max());
   std::vector<std::uint32_t> open(places.size());
   std::iota(open.begin(), open.end(), 0);
-  constexpr double kGrowth = 4;
+  constexpr double kGrowth = 3;
   for (; !open.empty(); reach *= kGrowth) {
     reach = std::min(reach, max_distance);
     look_within(reach, places, open, cloud, squared);

@@ -10,8 +10,8 @@
 namespace scanworld {
 
 // How far the nearest point of a cloud is from each of some places [m]: to a millionth where it is
-// within `max_distance`, which else stands for all that is farther. All points are looked at, at a
-// cost that hardly depends on the number of places where most points are within `reach` of few.
+// within `max_distance`, which else stands for all that is farther. All points are looked at; first
+// only for those within `reach` of a place, which is enough where most places have one there.
 std::vector<double> nearest_point_distances(const std::vector<Vec3>& places,
                                             const CloudInWorld& cloud, double reach,
                                             double max_distance);
