@@ -40,6 +40,7 @@ struct Request {
   int threads = 0;
   std::uint64_t seed = 1;
   bool labels = false, json = false, show_options = false;
+  bool level = false, floor_at_zero = false;
   Console console;
 };
 
@@ -52,6 +53,7 @@ ReconstructOptions resolve_options(const Request& request) {
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
+  options.frame.level |= request.level, options.frame.floor_at_zero |= request.floor_at_zero;
   return options;
 }
 
@@ -63,12 +65,22 @@ std::vector<ExportFormat> resolve_exports(const Request& request) {
   return formats;
 }
 
-std::vector<std::string> warnings_about(const PointCloud& cloud) {
+std::vector<std::string> warnings_about(const PointCloud& cloud, const World& world,
+                                        const LevelOptions& asked) {
   std::vector<std::string> warnings;
   if (!cloud.skipped.empty())
     warnings.push_back(fmt::format(
         "{} of {} points are not finite and were left out (the first is point {})",
         grouped(cloud.skipped.size()), grouped(cloud.input_size()), cloud.skipped[0] + 1));
+  if (const double tilt = tilt_of(world.frame) * 180 / M_PI; tilt > 0)
+    warnings.push_back(
+        cloud.camera_frame
+            ? fmt::format("the scan is in its camera's frame, where up is {:.1f} degrees off +z; "
+                          "--level makes it upright",
+                          tilt)
+            : fmt::format("the scan is tilted by {:.1f} degrees; --level makes it upright", tilt));
+  if (asked.floor_at_zero && !main_floor(world))
+    warnings.push_back("no floor was found that could be put at z = 0");
   return warnings;
 }
 
@@ -163,7 +175,7 @@ void run(Request request) {
   ReconstructResult result = reconstruct(cloud, options, progress);
   std::vector<StageReport>& stages = result.report.stages;
   stages.insert(stages.begin(), reading.stages[0]);
-  const std::vector<std::string> warnings = warnings_about(cloud);
+  const std::vector<std::string> warnings = warnings_about(cloud, result.world, options.frame);
   result.report.warnings.insert(result.report.warnings.begin(), warnings.begin(), warnings.end());
   add_provenance(result.world, request, cloud);
   if (const auto reasons = validate(result.world); !reasons.empty())
@@ -212,6 +224,11 @@ void add_build(CLI::App& app) {
   verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  verb->add_flag("--level", request->level,
+                 "Turn the world upright, so that up is +z; without it stays as it was scanned");
+  verb->add_flag("--floor-at-zero", request->floor_at_zero,
+                 "Move the world along up so that its largest floor is at height 0 (z = 0, with "
+                 "--level)");
   verb->add_flag("--labels", request->labels,
                  "Also write labels.ply: the surface of each input point");
   verb->add_option("--export", request->exports, "Formats to write beside world.json, or none")

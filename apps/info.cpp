@@ -10,6 +10,7 @@
 #include "files.h"
 #include "scan/ply.h"
 #include "scan/read_scan.h"
+#include "world/level.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -17,6 +18,7 @@ namespace scanworld::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using cli::json_of;
 
 enum class FileKind { scan, mesh, world };
 
@@ -30,6 +32,11 @@ FileKind kind_of(const std::filesystem::path& file) {
   if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
   return FileKind::scan;
 }
+
+Json json_of(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+// The world in the coordinates of its scan but for the origin.
+World as_scanned(const World& world) { return moved(world, world.frame.rotation, Vec3::Zero()); }
 
 Json box_json(const Box3& box, const Vec3& origin) {
   if (box.isEmpty()) return nullptr;
@@ -90,9 +97,12 @@ Json world_info(const std::filesystem::path& file) {
           {"colliders", world.colliders.size()},
           {"rooms", world.rooms.size()},
           {"area", total},
-          {"bounds", box_json(bounds(world), world.frame.origin)},
+          {"bounds", box_json(bounds(as_scanned(world)), world.frame.origin)},
+          {"own_bounds", box_json(bounds(world), Vec3::Zero())},
           {"origin", json_of(world.frame.origin)},
+          {"rotation", json_of(world.frame.rotation)},
           {"up", json_of(world.frame.up)},
+          {"tilt_degrees", tilt_of(world.frame) * 180 / M_PI},
           {"assumed", world.frame.assumed},
           {"made_by", world.provenance.program},
           {"made_from", inputs},

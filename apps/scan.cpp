@@ -47,7 +47,7 @@ void run(Request request) {
   request.options.lowest = request.lowest_degrees * kDegree;
   if (!request.poses.empty())
     for (const Vec3& pose : read_poses(request.poses))
-      request.options.poses.push_back(pose - world.frame.origin);
+      request.options.poses.push_back(world.frame.to_world(pose));
   const VirtualScan scan = virtual_scan(world, request.options);
   write_scan(request.out, scan.cloud);
   if (request.labels)

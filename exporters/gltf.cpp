@@ -29,8 +29,12 @@ class Builder {
   explicit Builder(const World& world) {
     model_.asset.version = "2.0";
     model_.asset.generator = std::string("scanworld ") + version();
+    const Eigen::Quaterniond& q = world.frame.rotation;
     model_.asset.extras = tinygltf::Value(
-        {{"scan_origin", list_of(world.frame.origin)}, {"scan_up", list_of(world.frame.up)}});
+        {{"scan_origin", list_of(world.frame.origin)},
+         {"scan_rotation", tinygltf::Value({tinygltf::Value(q.x()), tinygltf::Value(q.y()),
+                                            tinygltf::Value(q.z()), tinygltf::Value(q.w())})},
+         {"scan_up", list_of(world.frame.up)}});
     model_.buffers.emplace_back();
     model_.scenes.emplace_back();
     model_.scenes[0].name = "world";

@@ -22,9 +22,14 @@ std::string material_of(const ExportPart& part) {
 std::string frame_comment(const Frame& frame) {
   std::string text = "# scanworld: metres";
   text += fmt::format(", up is {} {} {}", frame.up.x(), frame.up.y(), frame.up.z());
-  if (!frame.origin.isZero())
-    text += fmt::format(", add {} {} {} to get the scan's coordinates", frame.origin.x(),
-                        frame.origin.y(), frame.origin.z());
+  std::vector<std::string> steps;
+  if (const Eigen::Vector4d q = frame.rotation.coeffs(); q != Eigen::Vector4d::UnitW())
+    steps.push_back(
+        fmt::format("turn by the quaternion (x y z w) {} {} {} {}", q[0], q[1], q[2], q[3]));
+  if (const Vec3& o = frame.origin; !o.isZero())
+    steps.push_back(fmt::format("add {} {} {}", o.x(), o.y(), o.z()));
+  if (!steps.empty())
+    text += fmt::format(", {} to get the scan's coordinates", fmt::join(steps, " and "));
   return text + "\n";
 }
 

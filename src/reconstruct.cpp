@@ -112,6 +112,14 @@ surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clus
   return surface::surroundings_of(std::move(sites), std::move(plane_of));
 }
 
+// What planes say about up, by the number of their points.
+std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::Members& members) {
+  std::vector<Facing> facings;
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    facings.push_back({planes[k].normal, static_cast<double>(members.of(k).size())});
+  return facings;
+}
+
 // The planes' polygons. A plane's points are labelled with its largest piece.
 template <typename Around>
 std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
@@ -132,7 +140,9 @@ std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vect
   Surroundings around;
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
     around = find_around();
-    const Vec3 up = find_frame(cloud, {}).up;
+    std::vector<Plane> faced;
+    for (const Patch& patch : patches) faced.push_back(patch.plane);
+    const Vec3 up = find_frame(cloud, facings_of(faced, members)).up;
     return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
   });
   const std::vector<SharedEdge> edges =
@@ -229,9 +239,10 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
         fmt::format("no plane found in {} points (they were looked at in cubes of {:.3g} m)",
                     cloud.points.size(), result.report.scale));
   if (result.report.noise == 0) result.report.noise = median_rms(surfaces);
-  result.world = assemble_world(surfaces, find_frame(cloud, surfaces));
+  result.world = assemble_world(surfaces, find_frame(cloud, facings_of(surfaces)));
   result.world.openings = log.run("Finding openings", "surfaces -> openings", surfaces,
                                   [&] { return find_openings(result.world); });
+  result.world = level_world(std::move(result.world), options.frame);
 
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))
@@ -251,8 +262,8 @@ const char* name_of(Method method) { return method == Method::thesis ? "thesis" 
 
 OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
-  for (const OptionList& more :
-       {surface::list_options(options.surface), thesis::list_options(options.thesis)})
+  for (const OptionList& more : {surface::list_options(options.surface),
+                                 thesis::list_options(options.thesis), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   return list;
 }

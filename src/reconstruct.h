@@ -12,7 +12,7 @@
 #include "rival/rival.h"
 #include "surface/surface.h"
 #include "thesis/thesis.h"
-#include "world/world.h"
+#include "world/level.h"
 
 namespace scanworld {
 
@@ -23,6 +23,7 @@ struct ReconstructOptions {
   rival::RivalOptions rival;
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
+  LevelOptions frame;
 };
 
 struct ReconstructResult {

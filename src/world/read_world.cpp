@@ -71,6 +71,11 @@ class Node {
     return {item(0).number(), item(1).number(), item(2).number()};
   }
 
+  Eigen::Quaterniond rotation() const {
+    if (size() != 4) fail("should be a list of 4 numbers, x y z w");
+    return {item(3).number(), item(0).number(), item(1).number(), item(2).number()};
+  }
+
   template <typename Read>
   auto list(Read read) const {
     std::vector<decltype(read(*this))> items;
@@ -100,10 +105,13 @@ class Node {
 };
 
 Frame read_frame(const Node& n) {
-  n.expect_keys({"origin", "up", "unit", "assumed"});
+  n.expect_keys({"origin", "?rotation", "up", "unit", "assumed"});
   if (n.at("unit").text() != "m") n.at("unit").fail("the only unit is 'm'");
-  return {n.at("origin").vector(), n.at("up").vector(),
-          n.at("assumed").list([](const Node& t) { return t.text(); })};
+  Frame f{.origin = n.at("origin").vector(),
+          .up = n.at("up").vector(),
+          .assumed = n.at("assumed").list([](const Node& t) { return t.text(); })};
+  if (n.has("rotation")) f.rotation = n.at("rotation").rotation();
+  return f;
 }
 
 Color read_color(const Node& n) {
@@ -149,11 +157,7 @@ Opening read_opening(const Node& n) {
 
 OrientedBox read_box(const Node& n) {
   n.expect_keys({"center", "size", "rotation"});
-  const Node q = n.at("rotation");
-  if (q.size() != 4) q.fail("should be a list of 4 numbers, x y z w");
-  return {n.at("center").vector(), n.at("size").vector(),
-          Eigen::Quaterniond(q.item(3).number(), q.item(0).number(), q.item(1).number(),
-                             q.item(2).number())};
+  return {n.at("center").vector(), n.at("size").vector(), n.at("rotation").rotation()};
 }
 ConvexHull read_hull(const Node& n) {
   n.expect_keys({"vertices"});

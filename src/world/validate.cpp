@@ -74,9 +74,13 @@ class Validator {
   void check_frame() {
     if (!world_.frame.origin.allFinite()) report("frame: the origin is not finite");
     if (!is_unit(world_.frame.up)) report("frame: up is not of length 1");
+    if (!is_unit(world_.frame.rotation)) report("frame: the rotation is not of length 1");
   }
 
-  static bool is_unit(const Vec3& v) { return std::abs(v.norm() - 1) < kUnitTolerance; }
+  template <typename T>  // a vector or a rotation
+  static bool is_unit(const T& v) {
+    return std::abs(v.norm() - 1) < kUnitTolerance;
+  }
 
   void check(const Surface& s) {
     const std::string name = fmt::format("surface {}", s.id);
@@ -137,8 +141,7 @@ class Validator {
     if (!b.center.allFinite()) report("{}: the center is not finite", name);
     if (!(b.size.array() > 0).all() || !b.size.allFinite())
       report("{}: the size {} {} {} is not positive", name, b.size.x(), b.size.y(), b.size.z());
-    if (!(std::abs(b.rotation.norm() - 1) < kUnitTolerance))
-      report("{}: the rotation is not of length 1", name);
+    if (!is_unit(b.rotation)) report("{}: the rotation is not of length 1", name);
   }
   void check_shape(const std::string& name, const ConvexHull& h) {
     if (h.vertices.size() < 4) report("{}: the hull has {} vertices", name, h.vertices.size());

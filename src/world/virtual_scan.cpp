@@ -216,10 +216,11 @@ VirtualScan virtual_scan(const World& world, const VirtualScanOptions& options) 
                    [](const Sample& a, const Sample& b) { return a.pose < b.pose; });
 
   VirtualScan scan;
+  const Eigen::Quaterniond& to_scan = world.frame.rotation;
   scan.cloud.origin = world.frame.origin;
-  scan.cloud.viewpoints = poses;
+  for (const Vec3& pose : poses) scan.cloud.viewpoints.push_back(to_scan * pose);
   for (const Sample& s : samples) {
-    scan.cloud.points.push_back(s.point.cast<float>());
+    scan.cloud.points.push_back((to_scan * s.point).cast<float>());
     scan.surface.push_back(s.surface);
     scan.kind.push_back(s.kind);
     scan.pose.push_back(s.pose);

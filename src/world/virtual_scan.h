@@ -26,17 +26,17 @@ struct VirtualScanOptions {
 enum class PointKind : std::int32_t { surface = 0, obstacle = 1, mixed = 2, outlier = 3 };
 
 struct VirtualScan {
-  PointCloud cloud;                   // viewpoints: the poses
+  PointCloud cloud;                   // as the world's frame says; viewpoints: the poses
   std::vector<std::int32_t> surface;  // for each point the id of its surface, -1 = none
   std::vector<std::int32_t> kind;     // for each point a PointKind
   std::vector<std::int32_t> pose;     // for each point the index of its pose
 };
 
-// Scans a world as laser scanners at the poses would: rays over the sphere, equally spaced in
-// azimuth and elevation, with noise, points between near and far at edges, fewer returns from
-// grazing rays, and stray points. Every ray has random numbers of its own, so the scan does not
-// depend on the number of threads. Throws usage where an option is out of range, nothing_found
-// where no ray meets anything.
+// Scans a world as laser scanners at the poses, upright on its z axis, would: rays over the sphere,
+// equally spaced in azimuth and elevation, with noise, points between near and far at edges, fewer
+// returns from grazing rays, and stray points. Every ray has random numbers of its own, so the scan
+// does not depend on the number of threads. Throws usage where an option is out of range,
+// nothing_found where no ray meets anything.
 VirtualScan virtual_scan(const World& world, const VirtualScanOptions& options);
 
 struct PlaceOptions {

@@ -56,6 +56,24 @@ double area(const World& world, const Surface& surface) {
   return sum.dot(surface.plane.normal) / 2;
 }
 
+Vec3 centroid(const World& world, const Surface& surface) {
+  const auto at = [&](int index) { return world.vertices[static_cast<std::size_t>(index)]; };
+  const Vec3 origin = at(surface.outer[0]);
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  // Fans of triangles, whose areas are negative where a loop turns back, and in holes.
+  const auto add = [&](const Loop& loop) {
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+      const Vec3 a = at(loop[0]) - origin, b = at(loop[i]) - origin, c = at(loop[i + 1]) - origin;
+      const double w = (b - a).cross(c - a).dot(surface.plane.normal);
+      sum += w * (a + b + c) / 3, weight += w;
+    }
+  };
+  add(surface.outer);
+  for (const Loop& hole : surface.holes) add(hole);
+  return origin + sum / weight;
+}
+
 Box3 bounds(const World& world) {
   Box3 box;
   for (const Vec3& v : world.vertices) box.extend(v);

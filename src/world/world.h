@@ -107,12 +107,21 @@ struct Door {
   bool operator==(const Door&) const = default;
 };
 
+// How the world lies in the coordinates of the scan file: those are rotation * p + origin for a
+// point p of the world.
 struct Frame {
-  Vec3 origin =
-      Vec3::Zero();         // [m] add this to the world's coordinates to get those of the scan file
-  Vec3 up = Vec3::UnitZ();  // against gravity
-  std::vector<std::string> assumed;  // what was assumed about the frame and why, in words
-  bool operator==(const Frame&) const = default;
+  Vec3 origin = Vec3::Zero();  // [m] in the scan's axes
+  Eigen::Quaterniond rotation =
+      Eigen::Quaterniond::Identity();  // from the world's axes to the scan's
+  Vec3 up = Vec3::UnitZ();             // against gravity, in the world's axes
+  std::vector<std::string> assumed;    // what was assumed or done about the frame, in words
+
+  Vec3 to_scan(const Vec3& p) const { return rotation * p + origin; }
+  Vec3 to_world(const Vec3& p) const { return rotation.conjugate() * (p - origin); }
+  bool operator==(const Frame& o) const {
+    return origin == o.origin && rotation.coeffs() == o.rotation.coeffs() && up == o.up &&
+           assumed == o.assumed;
+  }
 };
 
 // Where a world comes from.
@@ -149,8 +158,9 @@ const char* name_of(OpeningKind kind);
 // Of any triangulation without further vertices.
 std::size_t triangle_count(const World& world);
 
-// The area of a surface [m2].
+// The area of a surface [m2], and the middle of it.
 double area(const World& world, const Surface& surface);
+Vec3 centroid(const World& world, const Surface& surface);
 
 // The box around all vertices and obstacles; empty for an empty world.
 Box3 bounds(const World& world);

@@ -22,9 +22,17 @@ Json to_json(const std::vector<Vec3>& points) {
   return list;
 }
 
+Json to_json(const Eigen::Quaterniond& rotation) {
+  const Eigen::Vector4d q = rotation.coeffs();
+  return {q[0], q[1], q[2], q[3]};
+}
+
 Json to_json(const Frame& f) {
-  return {
-      {"origin", to_json(f.origin)}, {"up", to_json(f.up)}, {"unit", "m"}, {"assumed", f.assumed}};
+  Json j = {{"origin", to_json(f.origin)}};
+  const bool is_turned = f.rotation.coeffs() != Eigen::Quaterniond::Identity().coeffs();
+  if (is_turned) j["rotation"] = to_json(f.rotation);
+  j.update({{"up", to_json(f.up)}, {"unit", "m"}, {"assumed", f.assumed}});
+  return j;
 }
 
 Json to_json(const Surface& s) {
@@ -48,11 +56,10 @@ Json to_json(const Opening& o) {
 }
 
 Json shape_json(const OrientedBox& b) {
-  const Eigen::Vector4d q = b.rotation.coeffs();
   return {{"box",
            {{"center", to_json(b.center)},
             {"size", to_json(b.size)},
-            {"rotation", {q[0], q[1], q[2], q[3]}}}}};
+            {"rotation", to_json(b.rotation)}}}};
 }
 Json shape_json(const ConvexHull& h) { return {{"hull", {{"vertices", to_json(h.vertices)}}}}; }
 Json shape_json(const Cylinder& c) {
