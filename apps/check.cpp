@@ -9,6 +9,7 @@
 #include "fidelity.h"
 #include "parallel.h"
 #include "scan/read_scan.h"
+#include "world/cracks.h"
 #include "world/validate.h"
 #include "world/world_json.h"
 
@@ -27,8 +28,15 @@ struct Request {
   std::filesystem::path world, poses;
   std::vector<std::filesystem::path> scans;
   int threads = 0;
-  bool json = false;
+  bool exact = false, json = false;
 };
+
+std::string summary(const std::vector<Crack>& cracks) {
+  if (cracks.empty()) return "surfaces that meet share their vertices";
+  return fmt::format("{} T-junctions and {} cracks where surfaces meet",
+                     count_of(cracks, Crack::Kind::t_junction),
+                     count_of(cracks, Crack::Kind::crack));
+}
 
 Fidelity measure(const Request& request, const World& world) {
   const std::vector<Vec3> poses =
@@ -45,21 +53,33 @@ void run(const Request& request) {
   const World world = read_world(request.world);
   const std::string name = request.world.string();
   const std::vector<std::string> reasons = validate(world);
+  const bool is_valid = reasons.empty();
+  const std::vector<Crack> cracks = is_valid ? find_cracks(world) : std::vector<Crack>{};
   std::optional<Fidelity> fidelity;
-  if (reasons.empty() && !request.scans.empty()) fidelity = measure(request, world);
+  if (is_valid && !request.scans.empty()) fidelity = measure(request, world);
   if (request.json) {
-    nlohmann::ordered_json json = {
-        {"world", name}, {"valid", reasons.empty()}, {"reasons", reasons}};
+    nlohmann::ordered_json places = nlohmann::ordered_json::array();
+    for (const Crack& crack : cracks) places.push_back(text_of(crack));
+    nlohmann::ordered_json json = {{"world", name},
+                                   {"valid", is_valid},
+                                   {"reasons", reasons},
+                                   {"t_junctions", count_of(cracks, Crack::Kind::t_junction)},
+                                   {"cracks", count_of(cracks, Crack::Kind::crack)},
+                                   {"not_joined", places}};
     if (fidelity) json["fidelity"] = json_of(*fidelity);
     print_json(json);
   } else {
     for (const std::string& reason : reasons) fmt::print("{}\n", reason);
-    if (reasons.empty()) fmt::print("{}: valid, {} surfaces\n", name, world.surfaces.size());
+    for (const Crack& crack : cracks) fmt::print("{}\n", text_of(crack));
+    if (is_valid)
+      fmt::print("{}: valid, {} surfaces; {}\n", name, world.surfaces.size(), summary(cracks));
     if (fidelity) fmt::print("{}", text_of(*fidelity, world));
   }
-  if (!reasons.empty())
+  if (!is_valid)
     throw Error(Cause::check_failed,
                 fmt::format("{}: not valid, {} reasons", name, reasons.size()));
+  if (request.exact && !cracks.empty())
+    throw Error(Cause::check_failed, fmt::format("{}: not exact, {}", name, summary(cracks)));
   if (fidelity && !fidelity->is_faithful())
     throw Error(Cause::check_failed, fmt::format("{}: {}", name, verdict_of(*fidelity)));
 }
@@ -81,6 +101,8 @@ void add_check(CLI::App& app) {
   verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  verb->add_flag("--exact", request->exact,
+                 "Fail too where surfaces meet without sharing their vertices");
   verb->add_flag("--json", request->json, "As JSON");
   verb->footer(kExample);
   verb->callback([request] { run(*request); });

@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "fidelity.h"
 #include "version.h"
+#include "world/cracks.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -48,6 +49,7 @@ Json report_json(const ReconstructResult& result, const Fidelity& fidelity,
     stages.push_back(json_of(s));
     cpu += s.cpu_seconds;
   }
+  const std::vector<Crack> cracks = find_cracks(result.world);
   return {{"schema", {{"name", "scanworld-report"}, {"version", 1}}},
           {"program", std::string("scanworld ") + version()},
           {"points", {{"input", cloud.input_size()}, {"not_finite", cloud.skipped.size()}}},
@@ -58,6 +60,8 @@ Json report_json(const ReconstructResult& result, const Fidelity& fidelity,
           {"triangles", triangle_count(result.world)},
           {"surfaces", kind_counts(result.world)},
           {"fidelity", json_of(fidelity)},
+          {"t_junctions", count_of(cracks, Crack::Kind::t_junction)},
+          {"cracks", count_of(cracks, Crack::Kind::crack)},
           {"stages", stages},
           {"cpu_seconds", cpu},
           {"peak_memory_mb", peak_memory_mb()},

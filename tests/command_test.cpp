@@ -309,6 +309,63 @@ TEST_CASE(
   CHECK(run({"check", world, folder / "absent.ply"}).code == 3);
 }
 
+TEST_CASE("check tells where surfaces that meet are not joined, and fails for it if asked to") {
+  const TempFolder folder;
+  CHECK(contains(run({"check", in_project("worlds/office.json"), "--exact"}).out,
+                 "surfaces that meet share their vertices"));
+  // The wall ends in the middle of the floor's edge.
+  World world = small_world();
+  for (int v : {4, 5}) world.vertices[static_cast<std::size_t>(v)].x() -= 0.25;
+  world.surfaces[1].outer = {0, 4, 5, static_cast<int>(world.vertices.size())};
+  world.vertices.push_back({3.75, 0, 0});
+  for (int v : {4, 5}) {
+    Vec3& p = world.vertices[static_cast<std::size_t>(v)];
+    p.x() = p.x() < 1 ? 0 : 3.75;
+  }
+  write_world(folder / "t.json", world);
+  const Outcome told = run({"check", folder / "t.json"});
+  CHECK(told.code == 0);
+  CHECK(contains(told.out, "of surface 0 passes vertex"));
+  CHECK(contains(told.out, "1 T-junctions and 0 cracks"));
+  CHECK(run({"check", folder / "t.json", "--exact"}).code == 5);
+  const Json json = Json::parse(run({"check", folder / "t.json", "--json"}).out);
+  CHECK(json["valid"] == true);
+  CHECK(json["t_junctions"] == 1);
+  CHECK(json["not_joined"].size() == 1);
+}
+
+TEST_CASE("a tilted scan is warned of, and built upright with its floor at 0 if asked for") {
+  const TempFolder folder;
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.05, 0.005);
+  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(0.04, Vec3::UnitX()));
+  for (Vec3f& p : cloud.points) p = (tilt * p.cast<double>() + Vec3(0, 0, 7)).cast<float>();
+  write_scan(folder / "tilted.ply", cloud);
+  const Outcome as_is =
+      run({"build", folder / "tilted.ply", "-o", folder / "w", "--export", "none"});
+  CHECK(as_is.code == 0);
+  CHECK(contains(as_is.err, "tilted by 2.3 degrees; --level makes it upright"));
+  CHECK(read_world(folder / "w").frame.rotation.coeffs() ==
+        Eigen::Quaterniond::Identity().coeffs());
+  const Outcome level = run({"build", folder / "tilted.ply", "-o", folder / "w", "--export", "none",
+                             "--level", "--floor-at-zero"});
+  CHECK(level.code == 0);
+  CHECK_FALSE(contains(level.err, "tilted"));
+  const World world = read_world(folder / "w");
+  CHECK(world.frame.up == Vec3::UnitZ());
+  CHECK(std::get<bool>(world.provenance.options.at("frame.level")));
+  CHECK(std::abs(bounds(world).min().z()) < 0.003);
+  CHECK(bounds(world).max().z() == doctest::Approx(2.7).scale(0).epsilon(0.005));
+  const Json info = Json::parse(run({"info", folder / "w", "--json"}).out);
+  CHECK(info["tilt_degrees"] == 0);
+  CHECK(info["rotation"][0].get<double>() == doctest::Approx(std::sin(0.02)).epsilon(0.01));
+  CHECK(info["bounds"]["min"][2].get<double>() == doctest::Approx(7).scale(0).epsilon(0.01));
+  CHECK(std::abs(info["own_bounds"]["min"][2].get<double>()) < 0.003);
+  CHECK(run({"build", folder / "tilted.ply", "-o", folder / "s", "--export", "none", "--set",
+             "frame.level=true"})
+            .code == 0);
+  CHECK(read_world(folder / "s").frame.up == Vec3::UnitZ());
+}
+
 TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
   const TempFolder folder;
   CHECK(run({"scan", in_project("worlds/room.json"), "-o", folder / "s.ply", "--points", "100000",

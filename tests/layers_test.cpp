@@ -19,7 +19,8 @@ namespace {
 std::string room_of(const fs::path& file) {
   static const std::set<std::string> ground = {
       "types",   "error", "parallel",      "progress",   "options", "files",    "report",
-      "version", "mix",   "disjoint_sets", "point_sums", "polygon", "mesh_rays"};
+      "version", "mix",   "disjoint_sets", "point_sums", "polygon", "mesh_rays",
+      "segments"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;
