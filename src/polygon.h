@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "types.h"
@@ -30,6 +31,21 @@ inline bool is_inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p
         inside = !inside;
     }
   return inside;
+}
+
+// How far a point is from a segment.
+inline double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double length2 = (b - a).squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+  return (a + t * (b - a) - p).norm();
+}
+
+// Whether two segments cross, each the other's inside.
+inline bool do_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+  };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
 }  // namespace scanworld

@@ -231,9 +231,10 @@ OptionList list_options(SurfaceOptions& o) {
       {"surface.reveals.min_thickness", &o.reveals.min_thickness, "m", "of such a wall", 0},
       {"surface.reveals.max_thickness", &o.reveals.max_thickness, "m", "of such a wall", 0},
       {"surface.reveals.min_length", &o.reveals.min_length, "m", "of a closed end", 0},
-      {"surface.weld.same", &o.weld.same, "m", "corners nearer than this are one", 0},
+      {"surface.weld.same", &o.weld.same, "m",
+       "corners, planes that only cut, and lines nearer than this are one", 0, 0.05},
       {"surface.weld.off_plane", &o.weld.off_plane, "m",
-       "if that takes them no farther off their planes", 0, 0.0009},
+       "if that takes corners no farther off the polygons' planes", 0, 0.0009},
       {"surface.weld.min_area", &o.weld.min_area, "m2", "of a loop that is kept", 0},
       {"surface.min_area", &o.min_area, "m2", "smaller pieces are left out", 0},
   };

@@ -29,13 +29,15 @@ struct Piece {
 };
 
 struct WeldOptions {
-  double same = 0.002;        // [m] corners nearer than this are one ...
-  double off_plane = 0.0005;  // [m] ... if that takes them no farther off their planes
+  double same = 0.005;  // [m] corners nearer than this are one, planes that only cut, and lines ...
+  double off_plane = 0.0009;  // [m] ... if that takes corners no farther off the polygons' planes
   double min_area = 1e-3;     // [m2] of a loop that is kept
 };
 
-// The polygons as points. Corners of the same planes are at the same point, where those meet; and
-// where a corner of one polygon lies on another's edge, that has a vertex there too.
+// The polygons as points. Planes that are nearly one count as one. Corners of the same planes are
+// at the same point, where those meet; corners that are nearly one become one; and where a corner
+// of one polygon lies on another's edge that goes along, that has a vertex there too. A polygon
+// that would cross itself by this keeps more of its own corners.
 std::vector<Piece> weld(const std::vector<CornerPolygon>& polygons,
                         const std::vector<Plane>& planes, const WeldOptions& options = {});
 
