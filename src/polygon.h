@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "types.h"
@@ -46,6 +47,28 @@ inline bool do_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
     return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
   };
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+inline double distance_to_ring(const Vec2& p, const std::vector<Vec2>& ring) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    least = std::min(least, distance_to(p, ring[i], ring[(i + 1) % ring.size()]));
+  return least;
+}
+
+// What a line leaves of a convex ring: the points with normal * p <= offset (Sutherland and Hodgman
+// 1974).
+template <typename Point>
+std::vector<Point> clipped(const std::vector<Point>& ring, const Point& normal, double offset) {
+  std::vector<Point> left;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    const double over_a = normal.dot(a) - offset, over_b = normal.dot(b) - offset;
+    if (over_a <= 0) left.push_back(a);
+    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0))
+      left.push_back(a + (b - a) * (over_a / (over_a - over_b)));
+  }
+  return left;
 }
 
 }  // namespace scanworld

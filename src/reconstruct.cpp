@@ -228,7 +228,7 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 12 : 19);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 14 : 21);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);
@@ -240,9 +240,15 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                     cloud.points.size(), result.report.scale));
   if (result.report.noise == 0) result.report.noise = median_rms(surfaces);
   result.world = assemble_world(surfaces, find_frame(cloud, facings_of(surfaces)));
-  result.world.openings = log.run("Finding openings", "surfaces -> openings", surfaces,
-                                  [&] { return find_openings(result.world); });
-  result.world = level_world(std::move(result.world), options.frame);
+  World& world = result.world;
+  world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces,
+                           [&] { return find_openings(world); });
+  const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
+                                              [&] { return pair_faces(world, options.thickness); });
+  set_thickness(world, pairs);
+  world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
+                            [&] { return make_colliders(world, options.colliders); });
+  world = level_world(std::move(world), options.frame);
 
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))
@@ -263,7 +269,9 @@ const char* name_of(Method method) { return method == Method::thesis ? "thesis" 
 OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
   for (const OptionList& more : {surface::list_options(options.surface),
-                                 thesis::list_options(options.thesis), list_options(options.frame)})
+                                 thesis::list_options(options.thesis),
+                                 list_options(options.thickness), list_options(options.colliders),
+                                 list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   return list;
 }

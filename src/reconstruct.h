@@ -12,7 +12,9 @@
 #include "rival/rival.h"
 #include "surface/surface.h"
 #include "thesis/thesis.h"
+#include "world/colliders.h"
 #include "world/level.h"
+#include "world/thickness.h"
 
 namespace scanworld {
 
@@ -23,6 +25,8 @@ struct ReconstructOptions {
   rival::RivalOptions rival;
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
+  ThicknessOptions thickness;
+  ColliderOptions colliders;
   LevelOptions frame;
 };
 

@@ -78,6 +78,14 @@ TEST_CASE("each fault is found and named") {
   CHECK(contains(
       reason([](World& w) { std::get<ConvexPrism>(w.colliders[1].shape).extrusion.setZero(); }),
       "extrusion"));
+  const auto prism = [](World& w) -> ConvexPrism& {
+    return std::get<ConvexPrism>(w.colliders[1].shape);
+  };
+  CHECK(contains(reason([&](World& w) { prism(w).extrusion = {1, 0, 0}; }), "lies in the base"));
+  CHECK(contains(reason([&](World& w) { prism(w).base.resize(2); }), "the base has 2 vertices"));
+  CHECK(contains(reason([&](World& w) { prism(w).base[2] = {2, 0, 0}; }), "no area"));
+  CHECK(contains(reason([&](World& w) { prism(w).base.push_back({2, 0, 0.2}); }), "not convex"));
+  CHECK(contains(reason([&](World& w) { prism(w).base.push_back({0, 0.1, 1}); }), "off its plane"));
   CHECK(contains(reason([](World& w) { w.rooms[0].surfaces.push_back(12); }),
                  "room 0: there is no surface 12"));
   CHECK(contains(reason([](World& w) { w.doors[0].rooms[1] = 4; }), "no room 4"));

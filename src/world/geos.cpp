@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <geos_c.h>
 
+#include <algorithm>
 #include <memory>
+
+#include "../polygon.h"
 
 namespace scanworld::geos {
 
@@ -53,6 +56,45 @@ std::vector<Vec2> corners(const Context& context, const GEOSGeometry* geometry) 
   return points;
 }
 
+std::vector<Vec2> ring_of(const Context& context, const GEOSGeometry* geometry, bool ccw) {
+  std::vector<Vec2> ring = corners(context, geometry);
+  ring.pop_back();
+  if ((doubled_area(ring) > 0) != ccw) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+// The polygons among the parts of a geometry.
+void collect(const Context& context, const GEOSGeometry* geometry, std::vector<Rings>& polygons) {
+  if (!geometry || GEOSisEmpty_r(context.handle, geometry) == 1) return;
+  const int type = GEOSGeomTypeId_r(context.handle, geometry);
+  if (type == GEOS_POLYGON) {
+    Rings rings = {ring_of(context, GEOSGetExteriorRing_r(context.handle, geometry), true)};
+    const int holes = GEOSGetNumInteriorRings_r(context.handle, geometry);
+    for (int i = 0; i < holes; ++i)
+      rings.push_back(ring_of(context, GEOSGetInteriorRingN_r(context.handle, geometry, i), false));
+    polygons.push_back(std::move(rings));
+  } else if (type >= GEOS_MULTIPOINT) {
+    for (int i = 0; i < GEOSGetNumGeometries_r(context.handle, geometry); ++i)
+      collect(context, GEOSGetGeometryN_r(context.handle, geometry, i), polygons);
+  }
+}
+
+Geometry union_of(const Context& context, const std::vector<Rings>& polygons) {
+  std::vector<GEOSGeometry*> parts;
+  for (const Rings& rings : polygons) parts.push_back(polygon_of(context, rings).release());
+  const Geometry all(GEOSGeom_createCollection_r(context.handle, GEOS_GEOMETRYCOLLECTION,
+                                                 parts.data(), static_cast<unsigned>(parts.size())),
+                     Free{context.handle});
+  return {GEOSUnaryUnion_r(context.handle, all.get()), Free{context.handle}};
+}
+
+// Moves the outline outwards by a distance [m], inwards where it is negative, with sharp corners.
+Geometry offset(const Context& context, const Geometry& geometry, double distance) {
+  return {GEOSBufferWithStyle_r(context.handle, geometry.get(), distance, 1, GEOSBUF_CAP_FLAT,
+                                GEOSBUF_JOIN_MITRE, 10),
+          Free{context.handle}};
+}
+
 }  // namespace
 
 std::optional<std::string> why_invalid(const Rings& rings) {
@@ -90,6 +132,40 @@ std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings) 
     triangles.push_back(ccw ? std::array{p[0], p[1], p[2]} : std::array{p[0], p[2], p[1]});
   }
   return triangles;
+}
+
+Overlap overlap_of(const Rings& a, const Rings& b) {
+  const Context context;
+  const Geometry p = polygon_of(context, a), q = polygon_of(context, b);
+  const Geometry common(GEOSIntersection_r(context.handle, p.get(), q.get()), Free{context.handle});
+  Overlap overlap;
+  if (!common || GEOSArea_r(context.handle, common.get(), &overlap.area) != 1 || overlap.area <= 0)
+    return {};
+  const Geometry point(GEOSPointOnSurface_r(context.handle, common.get()), Free{context.handle});
+  if (!point) return {};
+  overlap.inside = corners(context, point.get())[0];
+  return overlap;
+}
+
+std::vector<Rings> unite(const std::vector<Rings>& polygons) {
+  const Context context;
+  std::vector<Rings> result;
+  collect(context, union_of(context, polygons).get(), result);
+  return result;
+}
+
+std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& others,
+                            double min_width) {
+  const Context context;
+  const Geometry whole = polygon_of(context, polygon), without = union_of(context, others);
+  if (!whole || !without) return {};
+  const Geometry left(GEOSDifference_r(context.handle, whole.get(), without.get()),
+                      Free{context.handle});
+  std::vector<Rings> result;
+  if (!left) return result;
+  const Geometry core = offset(context, left, -min_width / 2);
+  if (core) collect(context, offset(context, core, min_width / 2).get(), result);
+  return result;
 }
 
 }  // namespace scanworld::geos

@@ -22,4 +22,19 @@ std::optional<std::string> why_invalid(const Rings& rings);
 // counter-clockwise; nothing where the library fails.
 std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings);
 
+// What two valid polygons have in common: its area, and a point in it where that is not 0.
+struct Overlap {
+  double area = 0;
+  Vec2 inside = Vec2::Zero();
+};
+Overlap overlap_of(const Rings& a, const Rings& b);
+
+// The union of valid polygons. Here and below, outer rings of results are counter-clockwise, holes
+// clockwise; nothing where the library fails.
+std::vector<Rings> unite(const std::vector<Rings>& polygons);
+
+// What is left of a valid polygon without others, but for parts narrower than `min_width`.
+std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& others,
+                            double min_width);
+
 }  // namespace scanworld::geos

@@ -8,13 +8,18 @@
 
 namespace scanworld {
 
+// The frame of a surface's plane that rings_of() uses, with its origin near the first vertex.
+inline PlaneFrame rings_frame(const World& world, const Surface& surface) {
+  return frame_of(surface.plane, world.vertices[static_cast<std::size_t>(surface.outer[0])]);
+}
+
 // The loops of a surface in the frame of its plane, the outer one first, vertex for vertex.
 // Their indices must be in range.
 inline geos::Rings rings_of(const World& world, const Surface& surface) {
   const auto at = [&](int index) -> const Vec3& {
     return world.vertices[static_cast<std::size_t>(index)];
   };
-  const PlaneFrame frame = frame_of(surface.plane, at(surface.outer[0]));
+  const PlaneFrame frame = rings_frame(world, surface);
   const auto ring = [&](const Loop& loop) {
     std::vector<Vec2> points;
     for (int index : loop) points.push_back(frame.to_plane(at(index)));

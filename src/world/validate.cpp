@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "geos.h"
@@ -156,6 +157,24 @@ class Validator {
     if (p.base.size() < 3) report("{}: the base has {} vertices", name, p.base.size());
     check_finite(name, p.base);
     if (!(p.extrusion.norm() > 0)) report("{}: the extrusion has no length", name);
+    check_convex(name, p);
+  }
+  void check_convex(const std::string& name, const ConvexPrism& p) {
+    const std::size_t n = p.base.size();
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      sum += (p.base[i] - p.base[0]).cross(p.base[i + 1] - p.base[0]);
+    if (!(sum.norm() > 0)) return report("{}: the base has no area", name);
+    const Vec3 normal = sum.normalized();
+    if (!(std::abs(normal.dot(p.extrusion)) > 0))
+      report("{}: the extrusion lies in the base", name);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 &a = p.base[i], &b = p.base[(i + 1) % n], &c = p.base[(i + 2) % n];
+      if (std::abs(normal.dot(a - p.base[0])) > kPlanarTolerance)
+        report("{}: vertex {} of the base is off its plane", name, i);
+      if (normal.dot((b - a).cross(c - b)) < -kPlanarTolerance * (c - a).norm())
+        report("{}: the base is not convex at vertex {}", name, (i + 1) % n);
+    }
   }
   void check_finite(const std::string& name, const std::vector<Vec3>& points) {
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -15,7 +15,8 @@ inline constexpr double kPlanarTolerance = 1e-3;
 // What is wrong with a world, in words, each naming the element and the value; empty for a valid
 // world. Valid is: numbers are finite; ids are unique and refer to what exists; loops have three
 // different vertices or more, lie in their plane, and turn the right way; polygons do not cross
-// themselves, and holes lie inside, apart from each other; solids have a size. The order of the
+// themselves, and holes lie inside, apart from each other; solids have a size, and the bases
+// of prisms are flat and convex. The order of the
 // reasons is that of the world.
 std::vector<std::string> validate(const World& world);
 

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "colliders.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace scanworld {
+
+std::vector<Collider> make_colliders(const World& world, const ColliderOptions& options) {
+  const std::vector<Face> faces = faces_of(world);
+  const FaceDepths depths = find_depths(faces, options.slabs);
+  const Clearance clearance(faces, options.clearance);
+
+  std::vector<Slab> slabs = floor_slabs(world, faces, depths, clearance, options.slabs);
+  // Large faces first, so that those on the other side of a thing find it covered.
+  std::vector<std::size_t> order(faces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return faces[a].area > faces[b].area; });
+  for (std::size_t i : order) {
+    if (faces[i].area <= 0 || faces[i].surface->kind == Kind::floor) continue;
+    const auto more = slabs_of(faces, depths, i, slabs, clearance, options.slabs);
+    slabs.insert(slabs.end(), more.begin(), more.end());
+  }
+
+  std::stable_sort(slabs.begin(), slabs.end(),
+                   [](const Slab& a, const Slab& b) { return a.surface < b.surface; });
+  std::vector<Collider> colliders;
+  for (const Slab& slab : slabs)
+    colliders.push_back(collider_of(slab, world.surfaces[slab.surface].id));
+  return colliders;
+}
+
+OptionList list_options(ColliderOptions& o) {
+  return {
+      {"colliders.depth", &o.slabs.depth, "m",
+       "of a floor, ceiling or wall whose thickness is not known", 0.001},
+      {"colliders.other_depth", &o.slabs.other_depth, "m", "of anything else", 0.001},
+      {"colliders.max_beside", &o.slabs.max_beside, "m",
+       "a thing's side tells its depth if it is no larger, or the face is closed all around", 0},
+      {"colliders.max_depth", &o.slabs.max_depth, "m", "of what is known by its sides", 0.001},
+      {"colliders.gap", &o.slabs.gap, "m", "neighbours no farther apart touch", 0},
+      {"colliders.overlap", &o.slabs.overlap, "m", "of colliders that go on flat", 0},
+      {"colliders.min_width", &o.slabs.min_width, "m",
+       "narrower strips of a surface get no collider of their own", 0.001},
+      {"colliders.least_depth", &o.clearance.least_depth, "m",
+       "two faces of a thing that are nearer can't be told from noise", 0.001},
+  };
+}
+
+}  // namespace scanworld
