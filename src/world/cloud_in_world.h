@@ -10,10 +10,10 @@ namespace scanworld {
 class CloudInWorld {
  public:
   CloudInWorld(const PointCloud& cloud, const Frame& frame)
-      : cloud_(cloud), shift_(cloud.origin - frame.origin) {}
+      : cloud_(cloud), frame_(frame) {}
 
   // From the cloud's coordinates, as stored, to the world's.
-  Vec3 to_world(const Vec3& p) const { return p + shift_; }
+  Vec3 to_world(const Vec3& p) const { return frame_.to_world(p + cloud_.origin); }
 
   std::size_t size() const { return cloud_.points.size(); }
   Vec3 point(std::size_t i) const { return to_world(cloud_.points[i].cast<double>()); }
@@ -27,7 +27,7 @@ class CloudInWorld {
 
  private:
   const PointCloud& cloud_;
-  const Vec3 shift_;
+  const Frame frame_;
 };
 
 }  // namespace scanworld

@@ -193,7 +193,10 @@ class Measurement {
     for (const Vec3& p : points_) box.extend(p);
     const auto text = [&](const Box3& b) {
       if (b.isEmpty()) return std::string("nowhere");
-      const Vec3 low = b.min() + world_.frame.origin, high = b.max() + world_.frame.origin;
+      Box3 there;
+      for (int k = 0; k < 8; ++k)
+        there.extend(world_.frame.to_scan(b.corner(static_cast<Box3::CornerType>(k))));
+      const Vec3 &low = there.min(), &high = there.max();
       return fmt::format("from {:.1f} {:.1f} {:.1f} to {:.1f} {:.1f} {:.1f}", low.x(), low.y(),
                          low.z(), high.x(), high.y(), high.z());
     };
