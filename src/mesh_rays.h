@@ -11,7 +11,8 @@
 
 namespace scanworld {
 
-// A triangle mesh, ready for rays and distances (Embree). Both sides of a triangle are met. Thread-safe.
+// A triangle mesh, ready for rays and distances (Embree). Both sides of a triangle are met.
+// Thread-safe.
 class MeshRays {
  public:
   struct Hit {

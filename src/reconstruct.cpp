@@ -14,6 +14,7 @@
 #include "version.h"
 #include "world/assemble.h"
 #include "world/find_frame.h"
+#include "world/obstacles.h"
 #include "world/openings.h"
 
 namespace scanworld {
@@ -223,12 +224,26 @@ std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const Reconstru
   return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result);
 }
 
+// Adds the solids of what no surface explains.
+void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, StageLog& log,
+                     ReconstructResult& result) {
+  const ClutterScale scale{result.report.noise, result.report.spacing};
+  Obstacles obstacles = log.run("Enclosing clutter", "points -> obstacles", cloud, [&] {
+    return find_obstacles(cloud, result.labels, result.world, scale, options);
+  });
+  if (obstacles.left_out > 0)
+    result.report.warnings.push_back(
+        fmt::format("{} obstacles, the smallest, are left out: no more than {} are asked for",
+                    obstacles.left_out, options.max_obstacles));
+  result.world.obstacles = std::move(obstacles.kept);
+}
+
 }  // namespace
 
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 14 : 21);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 14 : 22);
   std::vector<FoundSurface> surfaces = options.method == Method::thesis
                                            ? find_by_thesis(cloud, options.thesis, log, result)
                                            : find_by_rival(cloud, options, log, result);
@@ -248,6 +263,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   set_thickness(world, pairs);
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
+  if (options.method == Method::rival) enclose_clutter(cloud, options.obstacles, log, result);
   world = level_world(std::move(world), options.frame);
 
   ReconstructOptions used = options;
@@ -268,10 +284,10 @@ const char* name_of(Method method) { return method == Method::thesis ? "thesis" 
 
 OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
-  for (const OptionList& more : {surface::list_options(options.surface),
-                                 thesis::list_options(options.thesis),
-                                 list_options(options.thickness), list_options(options.colliders),
-                                 list_options(options.frame)})
+  for (const OptionList& more :
+       {surface::list_options(options.surface), thesis::list_options(options.thesis),
+        list_options(options.thickness), list_options(options.colliders),
+        list_options(options.obstacles), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   return list;
 }

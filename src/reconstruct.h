@@ -14,7 +14,9 @@
 #include "thesis/thesis.h"
 #include "world/colliders.h"
 #include "world/level.h"
+#include "world/obstacles.h"
 #include "world/thickness.h"
+#include "world/world.h"
 
 namespace scanworld {
 
@@ -25,6 +27,7 @@ struct ReconstructOptions {
   rival::RivalOptions rival;
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
+  ObstacleOptions obstacles;        // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;
   LevelOptions frame;

@@ -37,6 +37,36 @@ TEST_CASE("a box of a room comes out as six rectangles with its own size") {
   CHECK(result.report.noise == doctest::Approx(0.005).scale(0).epsilon(0.1));
 }
 
+TEST_CASE("a round column is a cylinder, an octagonal one has eight walls") {
+  Random random(3);
+  for (bool is_round : {true, false}) {
+    PointCloud cloud = room_points({5, 4, 2.7}, 0.025, 0.006);
+    const double radius = 0.25;
+    std::erase_if(cloud.points, [&](const Vec3f& p) {
+      return (p.head<2>() - Vec2(2, 2.5).cast<float>()).norm() < 0.25F;
+    });
+    for (int i = 0; i < 12000; ++i) {
+      const double angle = random.uniform(0, 2 * M_PI);
+      const double off = std::fmod(angle, M_PI / 4) - M_PI / 8;
+      const double r = (is_round ? radius : radius * std::cos(M_PI / 8) / std::cos(off)) +
+                       0.006 * random.gauss();
+      cloud.points.emplace_back(
+          Vec3(2 + r * std::cos(angle), 2.5 + r * std::sin(angle), random.uniform(0, 2.7))
+              .cast<float>());
+    }
+    const World world = reconstruct(cloud).world;
+    CHECK(validate(world).empty());
+    CHECK(world.surfaces.size() == (is_round ? 6 : 14));
+    REQUIRE(world.obstacles.size() == (is_round ? 1 : 0));
+    if (!is_round) continue;
+    REQUIRE(std::holds_alternative<Cylinder>(world.obstacles[0].shape));
+    const auto& column = std::get<Cylinder>(world.obstacles[0].shape);
+    CHECK(std::abs(column.radius - radius) < 0.01);
+    CHECK((column.center - Vec3(2, 2.5, 1.35)).norm() < 0.02);
+    CHECK(column.height > 2.5);
+  }
+}
+
 TEST_CASE("the world's text is the same for any number of threads and any order of the points") {
   PointCloud cloud = scan_of("office", 120000);
   const std::string before = world_text(reconstruct(cloud).world);

@@ -12,7 +12,7 @@ using namespace scanworld::test;
 namespace {
 
 // The volume of a closed mesh; each edge must be there once in each direction.
-double volume_of(const Mesh& mesh) {
+double checked_volume(const Mesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   double volume = 0;
   for (const auto& t : mesh.triangles) {
@@ -34,22 +34,22 @@ TEST_CASE("solids are closed, face outwards and have their volume") {
   for (int round = 0; round < 50; ++round) {
     const Vec3 size(random.uniform(0.1, 3), random.uniform(0.1, 3), random.uniform(0.1, 3));
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(random.uniform(0, 6), random.direction()));
-    CHECK(volume_of(mesh_of(OrientedBox{10 * random.direction(), size, turn})) ==
+    CHECK(checked_volume(mesh_of(OrientedBox{10 * random.direction(), size, turn})) ==
           doctest::Approx(size.prod()));
     const ConvexPrism prism{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},
                             {random.uniform(-1, 1), 0, round % 2 ? 0.5 : -0.5}};
-    CHECK(volume_of(mesh_of(prism)) == doctest::Approx(1));
+    CHECK(checked_volume(mesh_of(prism)) == doctest::Approx(1));
     ConvexHull corners;
     for (int i = 0; i < 8; ++i)
       corners.vertices.push_back(turn * Vec3(i & 1, i >> 1 & 1, i >> 2 & 1).cwiseProduct(size));
     for (int i = 0; i < 20; ++i)
       corners.vertices.push_back(
           turn * Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(size));
-    CHECK(volume_of(mesh_of(corners)) == doctest::Approx(size.prod()));
+    CHECK(checked_volume(mesh_of(corners)) == doctest::Approx(size.prod()));
   }
-  CHECK(volume_of(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3::UnitZ(), 256)) ==
+  CHECK(checked_volume(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3::UnitZ(), 256)) ==
         doctest::Approx(M_PI * 0.25 * 2).scale(0).epsilon(1e-3));
-  CHECK(volume_of(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3(0, -0.6, 0.8))) > 1.5);
+  CHECK(checked_volume(mesh_of(Cylinder{{1, 2, 3}, 0.5, 2}, Vec3(0, -0.6, 0.8))) > 1.5);
 }
 
 TEST_CASE("points without a volume have no hull") {

@@ -33,6 +33,7 @@ Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& sc
                    const std::vector<LocalPlane>& local, Clustering c,
                    const RivalOptions& options) {
   c = weigh_evidence(grid, neighbors, scale, std::move(c), options.evidence);
+  c = drop_columns(grid, neighbors, scale, std::move(c), options.columns);
   return compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
 }
 
@@ -143,6 +144,11 @@ OptionList list_options(RivalOptions& o) {
        "of a small one in this sense", 0},
       {"rival.evidence.surrounded_rounds", &o.evidence.surrounded_rounds, "",
        "in which those surrounded are dropped", 0},
+      {"rival.columns.max_slope", &o.columns.max_slope, "rad",
+       "off upright of the facets of a round column", 0, 1},
+      {"rival.columns.max_radius", &o.columns.max_radius, "m", "a wider curve is a wall", 0},
+      {"rival.columns.max_noise", &o.columns.max_noise, "noise",
+       "rms of the points off a round column", 0},
       {"rival.regularise.max_angle", &o.regularise.max_angle, "rad",
        "planes that differ by less may be parallel or square; 0 = none is turned", 0, 0.5},
       {"rival.regularise.max_rise", &o.regularise.max_rise, "",

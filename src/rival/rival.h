@@ -7,6 +7,7 @@
 
 #include "../options.h"
 #include "bridge.h"
+#include "columns.h"
 #include "evidence.h"
 #include "growth.h"
 #include "labels.h"
@@ -34,6 +35,7 @@ struct RivalOptions {
   SplitOptions split;
   BridgeOptions bridge;
   EvidenceOptions evidence;
+  ColumnOptions columns;
   RegulariseOptions regularise;
   LabelOptions labels;
 };

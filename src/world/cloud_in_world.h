@@ -9,8 +9,7 @@ namespace scanworld {
 // A cloud as seen in the frame of a world. It refers to the cloud.
 class CloudInWorld {
  public:
-  CloudInWorld(const PointCloud& cloud, const Frame& frame)
-      : cloud_(cloud), frame_(frame) {}
+  CloudInWorld(const PointCloud& cloud, const Frame& frame) : cloud_(cloud), frame_(frame) {}
 
   // From the cloud's coordinates, as stored, to the world's.
   Vec3 to_world(const Vec3& p) const { return frame_.to_world(p + cloud_.origin); }

@@ -130,4 +130,26 @@ bool contains(const Mesh& convex, const Vec3& point) {
   });
 }
 
+double volume_of(const Mesh& mesh) {
+  double volume = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) {
+      return Vec3(mesh.vertices[static_cast<std::size_t>(t[k])] - mesh.vertices[0]);
+    };
+    volume += at(0).dot(at(1).cross(at(2))) / 6;
+  }
+  return volume;
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return mesh.vertices[static_cast<std::size_t>(t[k])];
+    };
+    area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+  }
+  return area;
+}
+
 }  // namespace scanworld

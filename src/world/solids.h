@@ -23,4 +23,8 @@ Mesh mesh_of(const Obstacle& obstacle, const Frame& frame);
 // Whether a point is in a convex solid.
 bool contains(const Mesh& convex, const Vec3& point);
 
+// Of a closed mesh [m3], and of any [m2].
+double volume_of(const Mesh& mesh);
+double area_of(const Mesh& mesh);
+
 }  // namespace scanworld

@@ -81,7 +81,9 @@ Box3 bounds(const World& world) {
     if (const auto* b = std::get_if<OrientedBox>(&obstacle.shape)) extend(box, *b);
     if (const auto* h = std::get_if<ConvexHull>(&obstacle.shape)) extend(box, *h);
     if (const auto* c = std::get_if<Cylinder>(&obstacle.shape)) {
-      const Vec3 half = world.frame.up * c->height / 2, r = Vec3::Constant(c->radius);
+      // A disc reaches less far along an axis the less that lies in it.
+      const Vec3& up = world.frame.up;
+      const Vec3 half = up * c->height / 2, r = c->radius * (1 - up.array().square()).max(0).sqrt();
       box.extend(c->center - half - r).extend(c->center - half + r);
       box.extend(c->center + half - r).extend(c->center + half + r);
     }
