@@ -54,6 +54,35 @@ def read_obj(path):
     return np.array(vertices)[np.array(corners)], np.array(ids)
 
 
+def read_colliders(world):
+    """Triangles (n, 3, 3) of the colliders but those of ceilings, and the ids of their surfaces."""
+    ceilings = {s['id'] for s in world['surfaces'] if s['kind'] == 'ceiling'}
+    triangles, ids = [], []
+    for collider in world['colliders']:
+        if collider['surface'] in ceilings:
+            continue
+        if 'box' in collider:
+            box = collider['box']
+            x, y, z, w = box['rotation']
+            turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+            corners = np.array([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]) / 2 * box['size']
+            base = box['center'] + corners @ turn.T
+            extrusion = turn @ [0, 0, -box['size'][2]]
+        else:
+            base, extrusion = np.array(collider['prism']['base']), np.array(collider['prism']['extrusion'])
+        n = len(base)
+        rings = [base, (base + extrusion)[::-1]]
+        rings += [np.array([base[i], base[i] + extrusion, base[(i + 1) % n] + extrusion, base[(i + 1) % n]])
+                  for i in range(n)]
+        for ring in rings:
+            for i in range(1, len(ring) - 1):
+                triangles.append([ring[0], ring[i], ring[i + 1]])
+                ids.append(collider['surface'])
+    return np.array(triangles), np.array(ids)
+
+
 def color_of(surface_id):
     """Colours that are easy to tell apart: steps of the golden ratio around the colour circle."""
     hue = (surface_id * 0.61803398875) % 1 * 6
@@ -126,10 +155,12 @@ def main():
     parser.add_argument('--azimuth', type=float, default=215, help='degrees; where the viewer stands')
     parser.add_argument('--elevation', type=float, default=38)
     parser.add_argument('--cut', type=float, default=0.82, help='points above this share of the height are not drawn')
+    parser.add_argument('--colliders', action='store_true', help='draw the colliders instead of the surfaces')
     args = parser.parse_args()
 
     with open(os.path.join(args.folder, 'world.json')) as file:
-        frame = json.load(file)['frame']
+        content = json.load(file)
+    frame = content['frame']
     up = np.array(frame['up'])
     side = np.cross(up, [0, 0, 1] if abs(up[2]) < 0.9 else [0, 1, 0])
     side = np.cross(side, up)
@@ -142,7 +173,7 @@ def main():
 
     points, labels = read_labels(os.path.join(args.folder, 'labels.ply'))
     points -= np.array(frame['origin'])
-    triangles, ids = read_obj(os.path.join(args.folder, 'world.obj'))
+    triangles, ids = read_colliders(content) if args.colliders else read_obj(os.path.join(args.folder, 'world.obj'))
 
     scan = Canvas(right, down, toward, triangles.reshape(-1, 3))
     height = points @ up

@@ -12,7 +12,8 @@ std::vector<Collider> make_colliders(const World& world, const ColliderOptions& 
   const FaceDepths depths = find_depths(faces, options.slabs);
   const Clearance clearance(faces, options.clearance);
 
-  std::vector<Slab> slabs = floor_slabs(world, faces, depths, clearance, options.slabs);
+  Slabs made;
+  made.add(floor_slabs(world, faces, depths, clearance, options.slabs));
   // Large faces first, so that those on the other side of a thing find it covered.
   std::vector<std::size_t> order(faces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -20,10 +21,10 @@ std::vector<Collider> make_colliders(const World& world, const ColliderOptions& 
                    [&](std::size_t a, std::size_t b) { return faces[a].area > faces[b].area; });
   for (std::size_t i : order) {
     if (faces[i].area <= 0 || faces[i].surface->kind == Kind::floor) continue;
-    const auto more = slabs_of(faces, depths, i, slabs, clearance, options.slabs);
-    slabs.insert(slabs.end(), more.begin(), more.end());
+    made.add(slabs_of(faces, depths, i, made, clearance, options.slabs));
   }
 
+  std::vector<Slab>& slabs = made.slabs;
   std::stable_sort(slabs.begin(), slabs.end(),
                    [](const Slab& a, const Slab& b) { return a.surface < b.surface; });
   std::vector<Collider> colliders;

@@ -54,7 +54,7 @@ double depth_of(const std::vector<Face>& faces, const std::vector<std::vector<Fa
 
 // How far a slab may go beyond an edge [m].
 double growth_of(const FaceEdge& edge, const FaceDepths& depths, const SlabOptions& options) {
-  if (edge.before) return depths.depth[*edge.before];
+  if (edge.before) return std::min(depths.depth[*edge.before], options.depth);
   return edge.flat ? options.overlap : 0;
 }
 
@@ -71,7 +71,7 @@ class Cover {
     depth_ = depths.depth[i];
   }
 
-  std::vector<Slab> run(const std::vector<Slab>& made) {
+  std::vector<Slab> run(const Slabs& made) {
     find_done(made);
     std::vector<Slab> boxes = make_boxes();
     std::vector<geos::Rings> covered = done_;
@@ -86,11 +86,11 @@ class Cover {
 
  private:
   // The sides of slabs that lie in this face and look its way.
-  void find_done(const std::vector<Slab>& made) {
+  void find_done(const Slabs& made) {
     const Plane& plane = face_.surface->plane;
-    for (const Slab& slab : made) {
-      if (!grown(face_.box, kRecess).intersects(slab.box())) continue;
-      for (const auto& side : slab.outline()) {
+    for (std::size_t k = 0; k < made.slabs.size(); ++k) {
+      if (!grown(face_.box, kRecess).intersects(made.boxes[k])) continue;
+      for (const auto& side : made.slabs[k].outline()) {
         const Vec3 normal = (side[1] - side[0]).cross(side[2] - side[0]).normalized();
         if (normal.dot(plane.normal) < kSameFace) continue;
         const bool lies_in = std::all_of(side.begin(), side.end(), [&](const Vec3& p) {
@@ -215,7 +215,7 @@ FaceDepths find_depths(const std::vector<Face>& faces, const SlabOptions& option
 }
 
 std::vector<Slab> slabs_of(const std::vector<Face>& faces, const FaceDepths& depths, std::size_t i,
-                           const std::vector<Slab>& made, const Clearance& clearance,
+                           const Slabs& made, const Clearance& clearance,
                            const SlabOptions& options) {
   std::vector<Slab> slabs;
   for (Slab& slab : Cover(faces, depths, i, options).run(made)) {

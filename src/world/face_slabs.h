@@ -29,7 +29,7 @@ FaceDepths find_depths(const std::vector<Face>& faces, const SlabOptions& option
 // are fewer. At concave corners they go on behind the neighbour. Those in `made` may cover parts of
 // it already.
 std::vector<Slab> slabs_of(const std::vector<Face>& faces, const FaceDepths& depths, std::size_t i,
-                           const std::vector<Slab>& made, const Clearance& clearance,
+                           const Slabs& made, const Clearance& clearance,
                            const SlabOptions& options);
 
 }  // namespace scanworld

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAbove = 0.001, kBelow = 0.002;  // [m] of floors that are one, off its plane
 constexpr double kRaster = 0.2;                   // [m] between places that are looked down from
-constexpr double kMaxPlaces = 4000;               // of a box, about
+constexpr double kMaxCells = 1000;                // of a box, about
 
 // Floors in one plane.
 using Group = std::vector<std::size_t>;
@@ -58,7 +58,7 @@ class Joiner {
     const Slab slab = slab_of(lead_, faces_[lead_].frame, around, depth_);
     if (!clearance_.fits(slab)) return std::nullopt;
     const Vec2 size = around.sizes();
-    const double step = std::max(kRaster, std::sqrt(size.prod() / kMaxPlaces));
+    const double step = std::max(kRaster, std::sqrt(size.prod() / kMaxCells));
     const Vec2 count = (size / step).array().ceil();
     for (int i = 0; i < static_cast<int>(count.x()); ++i)
       for (int k = 0; k < static_cast<int>(count.y()); ++k) {
@@ -138,7 +138,7 @@ std::vector<Slab> floor_slabs(const World& world, const std::vector<Face>& faces
     }
     std::vector<Slab> boxes;
     for (std::size_t i : group) {
-      const auto slabs = slabs_of(faces, depths, i, all, clearance, options);
+      const auto slabs = slabs_of(faces, depths, i, {}, clearance, options);
       boxes.insert(boxes.end(), slabs.begin(), slabs.end());
     }
     join_all(boxes, joiner);

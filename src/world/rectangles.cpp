@@ -12,7 +12,7 @@ namespace scanworld {
 namespace {
 
 constexpr std::size_t kMaxLines = 150;    // of a grid in each direction
-constexpr std::size_t kMaxTries = 20000;  // of choices, before a good cover has to do
+constexpr std::size_t kMaxWork = 400000;  // of choices, before a good cover has to do
 
 // Values in order, those within a tolerance as the middle between them.
 std::vector<double> merged(std::vector<double> values, double tolerance) {
@@ -142,7 +142,7 @@ std::vector<Candidate> candidates_of(const Grid& grid, const std::vector<std::si
 }
 
 // Chooses the fewest candidates that have everything (set cover): for the item that the fewest
-// have, each of these is tried, deeper and deeper, as long as that takes no more than kMaxTries;
+// have, each of these is tried, deeper and deeper, as long as that takes no more than kMaxWork;
 // else what the greedy choice finds.
 class Choice {
  public:
@@ -161,7 +161,7 @@ class Choice {
   std::vector<std::size_t> run() {
     std::vector<std::size_t> best = greedy();
     std::vector<int> covered(weight_.size());
-    for (std::size_t depth = 1; depth < best.size() && tries_ < kMaxTries; ++depth) {
+    for (std::size_t depth = 1; depth < best.size() && work_ < kMaxWork; ++depth) {
       chosen_.clear();
       if (search(depth, covered)) return chosen_;
     }
@@ -193,7 +193,7 @@ class Choice {
   }
 
   bool search(std::size_t depth, std::vector<int>& covered) {
-    if (++tries_ > kMaxTries) return false;
+    if ((work_ += weight_.size()) > kMaxWork) return false;
     const std::size_t none = weight_.size();
     std::size_t hardest = none;
     for (std::size_t i = 0; i < weight_.size(); ++i)
@@ -215,7 +215,7 @@ class Choice {
   const std::vector<double>& weight_;
   std::vector<std::vector<std::size_t>> having_;  // of each item the candidates
   std::vector<std::size_t> chosen_;
-  std::size_t tries_ = 0;
+  std::size_t work_ = 0;
 };
 
 }  // namespace

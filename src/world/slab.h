@@ -36,6 +36,16 @@ struct Slab {
   std::vector<std::vector<Vec3>> outline() const;
 };
 
+// Slabs, with the boxes around them.
+struct Slabs {
+  std::vector<Slab> slabs;
+  std::vector<Box3> boxes;
+
+  void add(const std::vector<Slab>& more) {
+    for (const Slab& slab : more) slabs.push_back(slab), boxes.push_back(slab.box());
+  }
+};
+
 // The slab behind a rectangle; sides without slack.
 Slab slab_of(std::size_t surface, const PlaneFrame& frame, const Rectangle& rectangle,
              double depth);
