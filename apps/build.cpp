@@ -23,16 +23,15 @@ namespace scanworld::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kExample = R"(Example:
+constexpr const char* kBuildExample = R"(Example:
   scanworld build office.ply -o office
 writes office/world.json, report.json, world.obj, world.stl and world.glb.
 
 'scanworld build --options' lists what can be set with --set and --config.)";
 
-struct Request {
+struct BuildRequest {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
   std::string method = "rival", preset;  // an empty preset: the one that suits the scan
@@ -48,7 +47,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-ReconstructOptions resolve_options(const Request& request) {
+ReconstructOptions resolve_options(const BuildRequest& request) {
   ReconstructOptions options{.method = method_named(request.method)};
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
@@ -58,7 +57,7 @@ ReconstructOptions resolve_options(const Request& request) {
 }
 
 // The formats that the world is to be written in; throws usage for one that does not exist.
-std::vector<ExportFormat> resolve_exports(const Request& request) {
+std::vector<ExportFormat> resolve_exports(const BuildRequest& request) {
   std::vector<ExportFormat> formats;
   for (const std::string& name : request.exports)
     if (name != "none" && name != "json") formats.push_back(export_format("--export", name));
@@ -84,7 +83,7 @@ std::vector<std::string> warnings_about(const PointCloud& cloud, const World& wo
   return warnings;
 }
 
-void add_provenance(World& world, const Request& request, const PointCloud& cloud) {
+void add_provenance(World& world, const BuildRequest& request, const PointCloud& cloud) {
   // The points of several files are one set; it is named by the files in the order of the alphabet.
   std::vector<std::string> names;
   for (const auto& scan : request.scans) names.push_back(scan.filename().string());
@@ -101,7 +100,7 @@ void write_json(const std::filesystem::path& path, const Json& json) {
   file.commit();
 }
 
-std::string summary(const Request& request, const World& world, const Json& report) {
+std::string summary(const BuildRequest& request, const World& world, const Json& report) {
   const auto count = [&](const char* kind) { return report["surfaces"][kind].get<std::size_t>(); };
   return fmt::format(
       "{}: {} surfaces ({} floor, {} ceiling, {} wall, {} other) and {} triangles from {} points "
@@ -113,7 +112,7 @@ std::string summary(const Request& request, const World& world, const Json& repo
 }
 
 // Writes all files of the world into the folder.
-void write_files(const std::filesystem::path& folder, const Request& request,
+void write_files(const std::filesystem::path& folder, const BuildRequest& request,
                  const std::vector<ExportFormat>& formats, const PointCloud& cloud,
                  const ReconstructResult& result) {
   write_world(folder / "world.json", result.world);
@@ -122,8 +121,8 @@ void write_files(const std::filesystem::path& folder, const Request& request,
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 
-Json whole_report(const Request& request, const ReconstructResult& result, const Fidelity& fidelity,
-                  const PointCloud& cloud, double seconds) {
+Json whole_report(const BuildRequest& request, const ReconstructResult& result,
+                  const Fidelity& fidelity, const PointCloud& cloud, double seconds) {
   Json report = report_json(result, fidelity, cloud);
   report["scans"] = Json::array();
   for (const auto& scan : request.scans) report["scans"].push_back(scan.string());
@@ -134,7 +133,7 @@ Json whole_report(const Request& request, const ReconstructResult& result, const
 }
 
 // Says what was done: warnings and stages on stderr, the result on stdout.
-void tell(const Request& request, const ReconstructResult& result, const Json& report) {
+void tell(const BuildRequest& request, const ReconstructResult& result, const Json& report) {
   request.console.finish_progress();
   for (const std::string& warning : result.report.warnings) request.console.warn(warning);
   for (const StageReport& s : result.report.stages)
@@ -147,7 +146,7 @@ void tell(const Request& request, const ReconstructResult& result, const Json& r
     fmt::print("{}\n", summary(request, result.world, report));
 }
 
-void run(Request request) {
+void run(BuildRequest request) {
   if (request.show_options) return fmt::print("{}", options_table());
   if (request.scans.empty() || request.out.empty())
     throw Error(Cause::usage, "build needs a SCAN and -o DIR (see --help)");
@@ -198,7 +197,7 @@ void run(Request request) {
 }  // namespace
 
 void add_build(CLI::App& app) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<BuildRequest>();
   CLI::App* verb = app.add_subcommand("build", "Make a world of a scan");
   verb->add_option("scans", request->scans,
                    "Scan files of one place: PLY, PCD, XYZ, TXT, CSV, PTS (text also .gz)")
@@ -241,7 +240,7 @@ void add_build(CLI::App& app) {
       ->capture_default_str();
   verb->add_flag("--json", request->json, "Print the report to stdout");
   request->console.add_to(*verb);
-  verb->footer(kExample);
+  verb->footer(kBuildExample);
   verb->callback([request] { run(*request); });
 }
 

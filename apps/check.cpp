@@ -17,14 +17,14 @@ namespace scanworld::cli {
 
 namespace {
 
-constexpr const char* kExample = R"(Examples:
+constexpr const char* kCheckExample = R"(Examples:
   scanworld check office
   scanworld check office office.ply --poses poses.txt
 The second measures the world against its scan: distances both ways, how much of the surfaces has
 points and how many points no surface explains, and with scanner positions which rays the world
 contradicts. docs/fidelity.md has the meaning and limit of each figure.)";
 
-struct Request {
+struct CheckRequest {
   std::filesystem::path world, poses;
   std::vector<std::filesystem::path> scans;
   int threads = 0;
@@ -38,7 +38,7 @@ std::string summary(const std::vector<Crack>& cracks) {
                      count_of(cracks, Crack::Kind::crack));
 }
 
-Fidelity measure(const Request& request, const World& world) {
+Fidelity measure(const CheckRequest& request, const World& world) {
   const std::vector<Vec3> poses =
       request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
   PointCloud cloud = read_scan(request.scans);
@@ -46,7 +46,7 @@ Fidelity measure(const Request& request, const World& world) {
   return fidelity_of(world, cloud);
 }
 
-void run(const Request& request) {
+void run(const CheckRequest& request) {
   if (request.scans.empty() && !request.poses.empty())
     throw Error(Cause::usage, "--poses needs a SCAN that was made from there");
   const ThreadLimit threads(request.threads);
@@ -58,14 +58,14 @@ void run(const Request& request) {
   std::optional<Fidelity> fidelity;
   if (is_valid && !request.scans.empty()) fidelity = measure(request, world);
   if (request.json) {
-    nlohmann::ordered_json places = nlohmann::ordered_json::array();
+    Json places = Json::array();
     for (const Crack& crack : cracks) places.push_back(text_of(crack));
-    nlohmann::ordered_json json = {{"world", name},
-                                   {"valid", is_valid},
-                                   {"reasons", reasons},
-                                   {"t_junctions", count_of(cracks, Crack::Kind::t_junction)},
-                                   {"cracks", count_of(cracks, Crack::Kind::crack)},
-                                   {"not_joined", places}};
+    Json json = {{"world", name},
+                 {"valid", is_valid},
+                 {"reasons", reasons},
+                 {"t_junctions", count_of(cracks, Crack::Kind::t_junction)},
+                 {"cracks", count_of(cracks, Crack::Kind::crack)},
+                 {"not_joined", places}};
     if (fidelity) json["fidelity"] = json_of(*fidelity);
     print_json(json);
   } else {
@@ -87,7 +87,7 @@ void run(const Request& request) {
 }  // namespace
 
 void add_check(CLI::App& app) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<CheckRequest>();
   CLI::App* verb = app.add_subcommand(
       "check", "Tell whether a world is valid and, with its scan, faithful (if not, exit code 5)");
   verb->add_option("world", request->world, "A world.json or its folder")
@@ -104,7 +104,7 @@ void add_check(CLI::App& app) {
   verb->add_flag("--exact", request->exact,
                  "Fail too where surfaces meet without sharing their vertices");
   verb->add_flag("--json", request->json, "As JSON");
-  verb->footer(kExample);
+  verb->footer(kCheckExample);
   verb->callback([request] { run(*request); });
 }
 

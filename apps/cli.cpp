@@ -56,9 +56,7 @@ Progress Console::make_progress() const {
                  100 * fraction, stage);
       std::fflush(stderr);
     }
-    if (json)
-      fmt::print(stderr, "{}\n",
-                 nlohmann::ordered_json{{"stage", stage}, {"fraction", fraction}}.dump());
+    if (json) fmt::print(stderr, "{}\n", Json{{"stage", stage}, {"fraction", fraction}}.dump());
   };
 }
 
@@ -76,16 +74,16 @@ std::string text_of(const Vec3& v) {
   return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z());
 }
 
-nlohmann::ordered_json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-nlohmann::ordered_json kind_counts(const World& world) {
-  nlohmann::ordered_json counts;
+Json kind_counts(const World& world) {
+  Json counts;
   for (Kind kind : {Kind::floor, Kind::ceiling, Kind::wall, Kind::other}) counts[name_of(kind)] = 0;
   for (const Surface& s : world.surfaces)
     counts[name_of(s.kind)] = counts[name_of(s.kind)].get<int>() + 1;
   return counts;
 }
 
-void print_json(const nlohmann::ordered_json& json) { fmt::print("{}\n", json.dump(2)); }
+void print_json(const Json& json) { fmt::print("{}\n", json.dump(2)); }
 
 }  // namespace scanworld::cli

@@ -12,6 +12,8 @@
 
 namespace scanworld::cli {
 
+using Json = nlohmann::ordered_json;
+
 // The verbs. Each adds its subcommand, which runs when the command line is parsed and may throw
 // Error.
 void add_build(CLI::App& app);
@@ -42,12 +44,12 @@ struct Console {
 std::string grouped(std::size_t number);
 std::string text_of(const Vec3& v);
 
-nlohmann::ordered_json json_of(const Vec3& v);
+Json json_of(const Vec3& v);
 
 // A count of each kind: {"floor": 1, ...}
-nlohmann::ordered_json kind_counts(const World& world);
+Json kind_counts(const World& world);
 
 // Prints JSON to stdout.
-void print_json(const nlohmann::ordered_json& json);
+void print_json(const Json& json);
 
 }  // namespace scanworld::cli

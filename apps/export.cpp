@@ -12,11 +12,11 @@
 namespace scanworld::cli {
 
 void add_export(CLI::App& app) {
-  struct Request {
+  struct ExportRequest {
     std::filesystem::path world, out;
     std::string format;
   };
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ExportRequest>();
   CLI::App* verb = app.add_subcommand("export", "Write a world in another format");
   verb->add_option("world", request->world, "A world.json or its folder")
       ->required()

@@ -16,8 +16,6 @@ namespace scanworld::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t kNamedSurfaces = 5;  // in the text
 constexpr std::size_t kFewPoints = 10;     // say little about a surface
 

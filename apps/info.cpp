@@ -17,7 +17,6 @@ namespace scanworld::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using cli::json_of;
 
 enum class FileKind { scan, mesh, world };
@@ -149,11 +148,11 @@ void run(const std::filesystem::path& file, bool json) {
 }  // namespace
 
 void add_info(CLI::App& app) {
-  struct Request {
+  struct InfoRequest {
     std::filesystem::path file;
     bool json = false;
   };
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<InfoRequest>();
   CLI::App* verb = app.add_subcommand("info", "Tell what is in a scan, mesh or world");
   verb->add_option("file", request->file, "A scan, a mesh, a world.json or its folder")
       ->required()

@@ -12,8 +12,6 @@ namespace scanworld::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json json_of(const StageReport& s) {
   return {{"name", s.name},
           {"seconds", s.seconds},

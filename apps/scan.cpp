@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-struct Request {
+struct ScanRequest {
   std::filesystem::path world, out, poses, save_poses;
   VirtualScanOptions options;
   double resolution_degrees = VirtualScanOptions{}.resolution / kDegree;
@@ -40,7 +40,7 @@ void write_poses(const std::filesystem::path& path, const PointCloud& cloud) {
   file.commit();
 }
 
-void run(Request request) {
+void run(ScanRequest request) {
   const ThreadLimit threads(request.threads);
   const World world = read_world(request.world);
   request.options.resolution = request.resolution_degrees * kDegree;
@@ -61,7 +61,7 @@ void run(Request request) {
 }  // namespace
 
 void add_scan(CLI::App& app) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ScanRequest>();
   VirtualScanOptions& o = request->options;
   CLI::App* verb =
       app.add_subcommand("scan", "Scan a world as a laser scanner would (a virtual scanner)");

@@ -41,7 +41,7 @@ aiMesh* mesh_of(const ExportPart& part, unsigned material) {
   return mesh;
 }
 
-aiMaterial* material_of(const ExportPart& part) {
+aiMaterial* make_material(const ExportPart& part) {
   auto* material = new aiMaterial;
   const aiColor3D color(part.color.r / 255.f, part.color.g / 255.f, part.color.b / 255.f);
   const aiString name(part.name);
@@ -63,7 +63,7 @@ std::unique_ptr<aiScene> scene_of(const World& world) {
   scene->mRootNode->mChildren = new aiNode*[count];
   for (unsigned i = 0; i < count; ++i) {
     scene->mMeshes[i] = mesh_of(parts[i], i);
-    scene->mMaterials[i] = material_of(parts[i]);
+    scene->mMaterials[i] = make_material(parts[i]);
     auto* node = new aiNode(parts[i].name);
     node->mParent = scene->mRootNode;
     node->mNumMeshes = 1;

@@ -14,7 +14,7 @@ namespace scanworld {
 namespace {
 
 // Surfaces without a colour of their own share one material a kind.
-std::string material_of(const ExportPart& part) {
+std::string material_name(const ExportPart& part) {
   if (part.color == color_of(part.kind)) return part.is_surface ? name_of(part.kind) : "obstacle";
   return fmt::format("rgb_{:02x}{:02x}{:02x}", part.color.r, part.color.g, part.color.b);
 }
@@ -42,15 +42,15 @@ void write_obj(const std::filesystem::path& path, const World& world) {
   std::string mtl = "# scanworld\n";
   std::set<std::string> known;
   for (const ExportPart& part : parts)
-    if (known.insert(material_of(part)).second)
-      mtl += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", material_of(part),
+    if (known.insert(material_name(part)).second)
+      mtl += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", material_name(part),
                          part.color.r / 255.0, part.color.g / 255.0, part.color.b / 255.0);
 
   std::string obj = frame_comment(world.frame);
   obj += fmt::format("mtllib {}\n", mtl_path.filename().string());
   int base = 1;
   for (const ExportPart& part : parts) {
-    obj += fmt::format("o {}\nusemtl {}\n", part.name, material_of(part));
+    obj += fmt::format("o {}\nusemtl {}\n", part.name, material_name(part));
     for (const Vec3& v : part.mesh.vertices)
       obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
     for (const auto& t : part.mesh.triangles)

@@ -20,6 +20,9 @@ struct Part {
   std::size_t begin, end;
 };
 
+// How many points of a cloud are one such part, usually.
+constexpr std::size_t kPointsPerPart = 1 << 16;
+
 // Splits [0, count) into parts of `size` items (the last one smaller), whatever the number of
 // threads.
 inline std::size_t part_count(std::size_t count, std::size_t size) {

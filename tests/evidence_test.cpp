@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rival/evidence.h"
 
-#include <numbers>
-
 #include "support/stages.h"
 
 using namespace scanworld;
@@ -12,17 +10,17 @@ using namespace scanworld::rival;
 
 namespace {
 
-constexpr double kSpacing = 0.015, kPi = std::numbers::pi;
+constexpr double kBandSpacing = 0.015;
 
 PointCloud floor_points(double noise, Random& random) {
   PointCloud cloud;
-  add_rectangle(cloud, {-1.5, -1.5, 0}, {3, 0, 0}, {0, 3, 0}, kSpacing, noise, random);
+  add_rectangle(cloud, {-1.5, -1.5, 0}, {3, 0, 0}, {0, 3, 0}, kBandSpacing, noise, random);
   return cloud;
 }
 
 void add_sphere(PointCloud& cloud, const Vec3& center, double radius, double noise,
                 Random& random) {
-  const int count = static_cast<int>(4 * kPi * radius * radius / (kSpacing * kSpacing));
+  const int count = static_cast<int>(4 * M_PI * radius * radius / (kBandSpacing * kBandSpacing));
   for (int i = 0; i < count; ++i)
     cloud.points.push_back(
         (center + (radius + noise * random.gauss()) * random.direction()).cast<float>());
@@ -33,9 +31,9 @@ PointCloud column_points(double radius, double noise, Random& random) {
   PointCloud cloud = floor_points(noise, random);
   std::erase_if(cloud.points, [&](const Vec3f& p) { return p.head<2>().norm() < radius; });
   const double height = 1.5;
-  const int count = static_cast<int>(2 * kPi * radius * height / (kSpacing * kSpacing));
+  const int count = static_cast<int>(2 * M_PI * radius * height / (kBandSpacing * kBandSpacing));
   for (int i = 0; i < count; ++i) {
-    const double angle = random.uniform(0, 2 * kPi), r = radius + noise * random.gauss();
+    const double angle = random.uniform(0, 2 * M_PI), r = radius + noise * random.gauss();
     cloud.points.push_back(
         Vec3(r * std::cos(angle), r * std::sin(angle), random.uniform(0, height)).cast<float>());
   }
@@ -48,13 +46,13 @@ void add_box(PointCloud& cloud, const Vec3& center, double edge, double noise, R
     for (double side : {-0.5, 0.5}) {
       const Vec3 a = edge * turn.col((axis + 1) % 3), b = edge * turn.col((axis + 2) % 3);
       add_rectangle(cloud, center + side * edge * turn.col(axis) - 0.5 * a - 0.5 * b, a, b,
-                    kSpacing, noise, random);
+                    kBandSpacing, noise, random);
     }
 }
 
 // What all stages find, without the floor.
 std::size_t found_beside_floor(PointCloud cloud, double noise) {
-  const Stages s = run_stages(std::move(cloud), known_scale(noise, kSpacing));
+  const Stages s = run_stages(std::move(cloud), known_scale(noise, kBandSpacing));
   const Clustering c = s.confirm();
   check_clustering(s.grid, c);
   std::size_t floors = 0, others = 0;

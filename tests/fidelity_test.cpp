@@ -15,7 +15,7 @@ using namespace scanworld::test;
 
 namespace {
 
-constexpr double kNoise = 0.006;  // [m]
+constexpr double kScanNoise = 0.006;  // [m]
 
 World world_named(const char* name) {
   return read_world(in_project(std::string("worlds/") + name + ".json"));
@@ -23,10 +23,10 @@ World world_named(const char* name) {
 
 PointCloud scan_of(const World& world, std::size_t points = 60000,
                    const std::vector<Vec3>& poses = {}) {
-  return virtual_scan(world, {.poses = poses, .points = points, .noise = kNoise}).cloud;
+  return virtual_scan(world, {.poses = poses, .points = points, .noise = kScanNoise}).cloud;
 }
 
-FidelityOptions options_for(double spacing) { return {.noise = kNoise, .spacing = spacing}; }
+FidelityOptions options_for(double spacing) { return {.noise = kScanNoise, .spacing = spacing}; }
 
 const Criterion& criterion(const Fidelity& fidelity, std::string_view name) {
   const auto found = std::find_if(fidelity.criteria.begin(), fidelity.criteria.end(),
@@ -97,7 +97,7 @@ TEST_CASE("a world is faithful to a scan of itself, with and without poses") {
       CHECK(c.is_met());
     }
     CHECK(fidelity.is_faithful());
-    CHECK(fidelity.scan_to_world.median < 0.68 * kNoise);  // noise is along the ray
+    CHECK(fidelity.scan_to_world.median < 0.68 * kScanNoise);  // noise is along the ray
     CHECK(fidelity.unexplained < 0.001);
     CHECK(fidelity.free_space_violations.value() < 0.001);
     CHECK(fidelity.leaks.value() < 0.002);

@@ -9,8 +9,6 @@ using namespace scanworld::test;
 
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }

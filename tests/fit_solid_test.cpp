@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/fit_solid.h"
 
-#include <numbers>
-
 #include "support/clutter.h"
 #include "world/solids.h"
 #include "world/validate.h"
@@ -13,7 +11,6 @@ using namespace scanworld::test;
 
 namespace {
 
-constexpr double kNoise = 0.005, kSpacing = 0.02, kPi = std::numbers::pi;
 const Vec3 kUp = Vec3::UnitZ();
 
 doctest::Approx about(double value, double off) {
@@ -37,7 +34,7 @@ TEST_CASE("a drum is a cylinder, to a centimetre, from all sides or one") {
       CAPTURE(arc);
       const Vec3 center(random.uniform(-9, 9), random.uniform(-9, 9), 0.5);
       std::vector<Vec3> points;
-      add_drum(points, center, radius, 1, kSpacing, kNoise, random, random.uniform(0, 6), arc);
+      add_drum(points, center, radius, 1, kThingSpacing, kNoise, random, random.uniform(0, 6), arc);
       const Solid solid = fit_solid(points, kUp, kNoise);
       REQUIRE(std::holds_alternative<Cylinder>(solid));
       const auto& c = std::get<Cylinder>(solid);
@@ -53,11 +50,11 @@ TEST_CASE("a crate is a box, to a centimetre, at any angle") {
   for (int k = 0; k < 12; ++k) {
     const Vec3 size(random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1.5)),
         center(random.uniform(-9, 9), random.uniform(-9, 9), size.z() / 2);
-    const double angle = random.uniform(0, kPi);
+    const double angle = random.uniform(0, M_PI);
     CAPTURE(size.transpose());
     CAPTURE(angle);
     std::vector<Vec3> points;
-    add_crate(points, center, size, angle, kSpacing, kNoise, random);
+    add_crate(points, center, size, angle, kThingSpacing, kNoise, random);
     const Solid solid = fit_solid(points, kUp, kNoise);
     REQUIRE(std::holds_alternative<OrientedBox>(solid));
     const auto& box = std::get<OrientedBox>(solid);
@@ -79,12 +76,12 @@ TEST_CASE("a ball is one hull of at most 32 vertices, as large as the ball, near
       CAPTURE(radius);
       CAPTURE(noise);
       std::vector<Vec3> points;
-      add_ball(points, {1, 2, 3}, radius, kSpacing, noise, random);
+      add_ball(points, {1, 2, 3}, radius, kThingSpacing, noise, random);
       const Solid solid = fit_solid(points, kUp, noise);
       REQUIRE(std::holds_alternative<ConvexHull>(solid));
       const auto& hull = std::get<ConvexHull>(solid);
       CHECK(hull.vertices.size() <= 32);
-      CHECK(volume_of(mesh_of(hull)) == about(4.0 / 3 * kPi * std::pow(radius, 3), 0.25));
+      CHECK(volume_of(mesh_of(hull)) == about(4.0 / 3 * M_PI * std::pow(radius, 3), 0.25));
       for (const Vec3& v : hull.vertices) CHECK((v - Vec3(1, 2, 3)).norm() < radius + 2 * noise);
       for (const Vec3& p : points) CHECK(outside_of({0, hull}, {}, p) < 0.12 * radius + 4 * noise);
     }

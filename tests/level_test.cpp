@@ -14,8 +14,6 @@ using namespace scanworld::test;
 
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 Eigen::Quaterniond random_rotation(Random& random) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0, M_PI), random.direction()));
 }

@@ -26,7 +26,7 @@ LocalPlane fit_to(const Mat3& covariance, std::uint32_t points) {
                      {.max_noise = 1e9, .min_extent = 0, .min_ratio = 0})[0];
 }
 
-Mat3 random_rotation(Random& random) {
+Mat3 any_rotation(Random& random) {
   return Eigen::AngleAxisd(random.uniform(0, 3), random.direction()).toRotationMatrix();
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("the fast fit finds the eigenvalues and the normal that Eigen finds") 
     if (round % 5 == 0) values.x() = values.y();
     if (round % 7 == 0) values.y() = 1;
     if (round % 3 == 0) values.x() *= 0.001;
-    const Mat3 axes = random_rotation(random);
+    const Mat3 axes = any_rotation(random);
     // As floats, which is what the fit is given.
     const Mat3 c =
         (axes * (size * values).asDiagonal() * axes.transpose()).cast<float>().cast<double>();

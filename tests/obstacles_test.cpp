@@ -13,13 +13,11 @@ using namespace scanworld::test;
 
 namespace {
 
-constexpr double kNoise = 0.005, kSpacing = 0.02;
-
 // A world with the obstacles that unlabelled points give.
 World enclose(const PointCloud& cloud, const ObstacleOptions& options = {}) {
   World world = floor_world();
   const std::vector<std::int32_t> labels(cloud.points.size(), -1);
-  world.obstacles = find_obstacles(cloud, labels, world, {kNoise, kSpacing}, options).kept;
+  world.obstacles = find_obstacles(cloud, labels, world, {kNoise, kThingSpacing}, options).kept;
   CHECK(validate(world).empty());
   return world;
 }
@@ -39,9 +37,9 @@ void add_strays(std::vector<Vec3>& points, int count, Random& random) {
 // Some of each: a drum, a crate and a ball that do not touch.
 std::vector<Vec3> some_things(Random& random) {
   std::vector<Vec3> points;
-  add_drum(points, {0, 0, 0.5}, 0.3, 1, kSpacing, kNoise, random);
-  add_crate(points, {2, 1, 0.3}, {0.8, 0.5, 0.6}, 0.4, kSpacing, kNoise, random);
-  add_ball(points, {-2, 1, 0.4}, 0.3, kSpacing, kNoise, random);
+  add_drum(points, {0, 0, 0.5}, 0.3, 1, kThingSpacing, kNoise, random);
+  add_crate(points, {2, 1, 0.3}, {0.8, 0.5, 0.6}, 0.4, kThingSpacing, kNoise, random);
+  add_ball(points, {-2, 1, 0.4}, 0.3, kThingSpacing, kNoise, random);
   return points;
 }
 
@@ -77,7 +75,7 @@ TEST_CASE("a curtain of points between an edge and what is behind is no obstacle
   Random random(3);
   std::vector<Vec3> points;
   // From one column of rays, every second of which meets an edge 1 m before a wall.
-  for (double z = 0.3; z < 2; z += kSpacing)
+  for (double z = 0.3; z < 2; z += kThingSpacing)
     if (random.uniform() < 0.5) points.emplace_back(1, random.uniform(0, 1), z);
   CHECK(enclose(points).obstacles.empty());
 }
@@ -85,7 +83,8 @@ TEST_CASE("a curtain of points between an edge and what is behind is no obstacle
 TEST_CASE("two drums half a metre apart stay two, and one can pass between them") {
   Random random(4);
   std::vector<Vec3> points;
-  for (double x : {-0.55, 0.55}) add_drum(points, {x, 0, 0.5}, 0.3, 1, kSpacing, kNoise, random);
+  for (double x : {-0.55, 0.55})
+    add_drum(points, {x, 0, 0.5}, 0.3, 1, kThingSpacing, kNoise, random);
   const World world = enclose(points);
   REQUIRE(world.obstacles.size() == 2);
   const RayScene scene(world);
@@ -97,8 +96,8 @@ TEST_CASE("the frame of a door is enclosed piece by piece: one can go through") 
   Random random(5);
   std::vector<Vec3> points;
   for (double x : {-0.5, 0.5})
-    add_crate(points, {x, 0, 1.05}, {0.1, 0.15, 2.1}, 0, kSpacing, kNoise, random);
-  add_crate(points, {0, 0, 2.15}, {1.1, 0.15, 0.1}, 0, kSpacing, kNoise, random);
+    add_crate(points, {x, 0, 1.05}, {0.1, 0.15, 2.1}, 0, kThingSpacing, kNoise, random);
+  add_crate(points, {0, 0, 2.15}, {1.1, 0.15, 0.1}, 0, kThingSpacing, kNoise, random);
   const World world = enclose(points);
   CHECK(world.obstacles.size() >= 3);
   const RayScene scene(world);
@@ -113,7 +112,7 @@ TEST_CASE("the frame of a door is enclosed piece by piece: one can go through") 
 TEST_CASE("balls that touch are parted") {
   Random random(6);
   std::vector<Vec3> points;
-  for (double x : {-0.3, 0.3}) add_ball(points, {x, 0, 0.6}, 0.3, kSpacing, kNoise, random);
+  for (double x : {-0.3, 0.3}) add_ball(points, {x, 0, 0.6}, 0.3, kThingSpacing, kNoise, random);
   const World world = enclose(points);
   CHECK(world.obstacles.size() == 2);
   const RayScene scene(world);
@@ -123,7 +122,7 @@ TEST_CASE("balls that touch are parted") {
 TEST_CASE("the same obstacles for any order of the points and any number of threads") {
   Random random(7);
   std::vector<Vec3> points = some_things(random);
-  for (double x : {-0.3, 0.3}) add_ball(points, {x, -2, 0.6}, 0.3, kSpacing, kNoise, random);
+  for (double x : {-0.3, 0.3}) add_ball(points, {x, -2, 0.6}, 0.3, kThingSpacing, kNoise, random);
   add_strays(points, 500, random);
   PointCloud cloud = cloud_of(points);
   const std::string expected = world_text(enclose(cloud));
@@ -140,7 +139,7 @@ TEST_CASE("the budget keeps the largest and tells how many are left out") {
   const World world = floor_world();
   const std::vector<std::int32_t> labels(cloud.points.size(), -1);
   const auto find = [&](int most) {
-    return find_obstacles(cloud, labels, world, {kNoise, kSpacing}, {.max_obstacles = most});
+    return find_obstacles(cloud, labels, world, {kNoise, kThingSpacing}, {.max_obstacles = most});
   };
   const Obstacles all = find(100), two = find(2);
   CHECK(all.left_out == 0);

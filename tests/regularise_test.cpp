@@ -10,7 +10,6 @@ using namespace scanworld::rival;
 
 namespace {
 
-constexpr double kNoise = 0.005;
 const Scale kScale{.noise = kNoise, .spacing = 0.03, .voxel = 0.05};
 
 // A cluster of points of a rectangle from `corner` along a and b.

@@ -11,8 +11,6 @@ using namespace scanworld::rival;
 
 namespace {
 
-constexpr double kNoise = 0.005;
-
 // A floor and a wall that meet in the y axis: sites of the floor 0, of the wall 1.
 Stages edge_stages(int strays = 0) {
   PointCloud cloud;

@@ -14,13 +14,14 @@ using namespace scanworld::thesis;
 
 namespace {
 
-struct Place {
+struct SnappedPlace {
   FilteredPoints filtered;
   KdTree tree;
-  std::vector<Cluster> walls;
+  std::vector<thesis::Cluster> walls;
   std::vector<Polygon> borders;
 
-  explicit Place(const PointCloud& cloud) : filtered(filter_points(cloud)), tree(filtered.points) {
+  explicit SnappedPlace(const PointCloud& cloud)
+      : filtered(filter_points(cloud)), tree(filtered.points) {
     walls = spread_clusters(tree, filtered.delta, place_clusters(tree, filtered.delta));
     borders = find_borders(fit_to_planes(filtered.points, walls), walls);
   }
@@ -37,7 +38,7 @@ bool is_corner(const Vec3& v, const Vec3& size) {
 TEST_CASE(
     "a noisy room snaps and reduces to six rectangles that share eight corners, bit for bit") {
   const Vec3 size(5, 4, 2.7);
-  const Place room(room_points(size, 0.03, 0.005));
+  const SnappedPlace room(room_points(size, 0.03, 0.005));
   REQUIRE(room.walls.size() == 6);
   const auto polygons = reduce_vertices(
       snap_vertices(room.borders, room.walls, room.tree, room.filtered.delta), room.filtered.delta);
@@ -57,7 +58,7 @@ TEST_CASE(
   PointCloud cloud = room_points({5, 4, 2.7}, 0.03, 0.01);
   Random random(5);
   add_rectangle(cloud, {1, 1, 0.75}, {1.4, 0.2, 0}, {-0.1, 0.8, 0}, 0.02, 0.005, random);
-  const Place room(cloud);
+  const SnappedPlace room(cloud);
   const SnappingOptions options;
   const auto snapped =
       snap_vertices(room.borders, room.walls, room.tree, room.filtered.delta, options);
@@ -80,7 +81,7 @@ TEST_CASE("a table's corners are not drawn to the walls, where it has no points"
   Random random(6);
   const Vec3 corner(1.5, 1.5, 0.75);
   add_rectangle(cloud, corner, {1.4, 0, 0}, {0, 0.8, 0}, 0.02, 0.003, random);
-  const Place room(cloud);
+  const SnappedPlace room(cloud);
   REQUIRE(room.walls.size() == 7);
   const auto snapped = snap_vertices(room.borders, room.walls, room.tree, room.filtered.delta);
   for (const Vec3& v : snapped[6]) {
@@ -95,7 +96,7 @@ TEST_CASE("planes that are nearly parallel have no corner that anything snaps to
   Random random(7);
   add_rectangle(cloud, {0, 0, 0}, {3, 0, 0}, {0, 3, 0}, 0.02, 0.002, random);
   add_rectangle(cloud, {3, 0, 0}, {3, 0, 0.45}, {0, 3, 0}, 0.02, 0.002, random);  // 9 degrees
-  const Place room(cloud);
+  const SnappedPlace room(cloud);
   REQUIRE(room.walls.size() == 2);
   const auto sorted = [](std::vector<Polygon> polygons) {
     for (Polygon& p : polygons)

@@ -10,14 +10,12 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
-
 // What the sites of each cluster add up to.
 std::vector<Moments> sum_moments(const Grid& grid, const Clustering& c) {
-  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  const std::size_t parts = part_count(grid.sites.size(), kSitesPerPart);
   std::vector<std::vector<std::pair<std::int32_t, Moments>>> found(parts);
   parallel_for(parts, [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+    const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
     auto& list = found[part];
     std::size_t at = 0;
     for (std::size_t i = begin; i < end; ++i) {

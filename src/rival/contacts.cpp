@@ -12,11 +12,10 @@ namespace scanworld::rival {
 
 std::vector<Contact> find_contacts(const Grid& grid, const Neighbors& neighbors,
                                    const Clustering& c) {
-  constexpr std::size_t kPart = 1 << 12;
-  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  const std::size_t parts = part_count(grid.sites.size(), kSitesPerPart);
   std::vector<std::vector<Contact>> found(parts);
   parallel_for(parts, [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+    const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
     std::vector<Contact>& list = found[part];
     Votes votes;
     std::unordered_map<std::uint64_t, std::size_t> index;  // in the list, by a << 32 | b

@@ -12,7 +12,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 16;
 constexpr int kBias = 1 << 17;         // blocks to each side of the origin
 constexpr std::size_t kMinStray = 12;  // fewer points that are far from all others are no site
 
@@ -97,10 +96,10 @@ class BlockIndex {
 
 // The keys of all blocks that hold points, ascending.
 std::vector<std::uint64_t> find_blocks(const PointCloud& cloud, const Raster& raster) {
-  const std::size_t parts = part_count(cloud.points.size(), kPart);
+  const std::size_t parts = part_count(cloud.points.size(), kPointsPerPart);
   std::vector<std::vector<std::uint64_t>> found(parts);
   parallel_for(parts, [&](std::size_t i) {
-    const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
+    const auto [begin, end] = part_of(i, cloud.points.size(), kPointsPerPart);
     BlockIndex seen;
     Place at;
     std::uint64_t last = ~0ull;
@@ -160,7 +159,7 @@ struct Sorted {
 Sorted sort_by_block(const PointCloud& cloud, const Raster& raster, const BlockIndex& index,
                      std::size_t blocks) {
   const std::size_t points = cloud.points.size();
-  const std::size_t size = std::max(kPart, (points + 31) / 32);
+  const std::size_t size = std::max(kPointsPerPart, (points + 31) / 32);
   const std::size_t parts = part_count(points, size);
   // Calls body(point, place, block) for each point of a part.
   const auto for_each = [&](std::size_t part, const auto& body) {

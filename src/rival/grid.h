@@ -12,6 +12,9 @@
 
 namespace scanworld::rival {
 
+// Sites are worked on in parts of so many.
+constexpr std::size_t kSitesPerPart = 1 << 12;
+
 // The points of one voxel, by their moments.
 struct Site {
   Vec3f mean = Vec3f::Zero();           // relative to the cloud's origin

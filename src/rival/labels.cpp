@@ -13,8 +13,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
-
 // A cluster that the points of a site may belong to.
 struct Candidate {
   std::int32_t label;
@@ -52,10 +50,10 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
   LabelledPoints result;
   std::vector<std::int32_t>& labels = result.labels;
   labels.assign(cloud.points.size(), kNone);
-  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  const std::size_t parts = part_count(grid.sites.size(), kSitesPerPart);
   std::vector<std::vector<std::size_t>> counts(parts);
   parallel_for(parts, [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+    const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
     counts[part].resize(c.clusters.size());
     Votes votes;
     std::vector<Candidate> near;
@@ -90,8 +88,8 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
     result.plane_of[k] = static_cast<std::int32_t>(result.planes.size());
     result.planes.push_back({c.clusters[k].fit, noise[k]});
   }
-  parallel_for(part_count(labels.size(), kPart), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, labels.size(), kPart);
+  parallel_for(part_count(labels.size(), kSitesPerPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, labels.size(), kSitesPerPart);
     for (std::size_t i = begin; i < end; ++i)
       if (labels[i] != kNone) labels[i] = result.plane_of[static_cast<std::size_t>(labels[i])];
   });

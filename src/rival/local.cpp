@@ -10,8 +10,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
-
 // The least and the middle eigenvalue of a symmetric matrix without negative ones, and the
 // eigenvector of the least.
 struct SymmetricFit {
@@ -94,8 +92,8 @@ std::vector<LocalPlane> fit_locally(const Grid& grid, const Neighbors& neighbors
                                     std::vector<LocalPlane> planes,
                                     const std::vector<std::uint8_t>& only) {
   planes.resize(grid.sites.size());
-  parallel_for(part_count(planes.size(), kPart), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, planes.size(), kPart);
+  parallel_for(part_count(planes.size(), kSitesPerPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, planes.size(), kSitesPerPart);
     for (std::size_t i = begin; i < end; ++i)
       if (const auto around = neighbors.of(i); !around.empty() && (only.empty() || only[i]))
         planes[i] = fit_at(grid, around, i, scale, options);

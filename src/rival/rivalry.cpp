@@ -12,8 +12,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
-
 // The label that explains a site at the lowest price. Notes whether it has others around it.
 std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, const Grid& grid,
                         const std::vector<LocalPlane>& local, Clustering& c, const Scale& scale,
@@ -52,12 +50,12 @@ Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& sc
     std::int32_t label;
   };
   const float cos_angle = static_cast<float>(std::cos(options.max_angle));
-  const std::size_t parts = part_count(grid.sites.size(), kPart);
+  const std::size_t parts = part_count(grid.sites.size(), kSitesPerPart);
   std::size_t most = 0;
   for (int sweep = 0; sweep < options.max_sweeps; ++sweep) {
     std::vector<std::vector<Change>> found(parts);
     parallel_for(parts, [&](std::size_t part) {
-      const auto [begin, end] = part_of(part, grid.sites.size(), kPart);
+      const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
       Votes votes;
       for (std::size_t i = begin; i < end; ++i) {
         if (!c.awake[i]) continue;

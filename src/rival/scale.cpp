@@ -17,7 +17,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 16;
 constexpr std::size_t kMinPoints = 12;  // in a cell that is looked at
 constexpr double kWanted = 20000;       // points in the smallest cells that are looked at
 constexpr double kAgreement = 1.2, kOtherPlanes = 1.6;  // ratios of noise in cells twice as large
@@ -43,14 +42,14 @@ double shift_of(double size) {
 
 // The points of every `rate`-th cell of this size, by cell; `rate` is a power of two.
 std::vector<Sample> sample_cells(const PointCloud& cloud, double size, std::uint64_t rate) {
-  const std::size_t parts = part_count(cloud.points.size(), kPart);
+  const std::size_t parts = part_count(cloud.points.size(), kPointsPerPart);
   std::vector<std::vector<Sample>> found(parts);
   const float inverse = static_cast<float>(1 / size);
   const double shift = shift_of(size);
   const std::uint64_t mask = rate - 1;
   constexpr std::int64_t kBias = 1 << 20;  // makes all positive, so that casts round down
   parallel_for(parts, [&](std::size_t i) {
-    const auto [begin, end] = part_of(i, cloud.points.size(), kPart);
+    const auto [begin, end] = part_of(i, cloud.points.size(), kPointsPerPart);
     for (std::size_t k = begin; k < end; ++k) {
       const Vec3 at = (cloud.points[k] * inverse).cast<double>();
       if (!(at.array().abs() < 1e6).all()) continue;

@@ -12,7 +12,6 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 12;
 constexpr int kRounds = 4;  // of 2-means
 
 // What offsets along a normal add up to.
@@ -112,9 +111,9 @@ Grid part_sides(const PointCloud& cloud, Grid grid, const Neighbors& neighbors,
                 const std::vector<LocalPlane>& local, const Scale& scale,
                 const SidesOptions& options) {
   const std::size_t count = grid.sites.size();
-  std::vector<std::vector<std::pair<std::uint32_t, Plane>>> found(part_count(count, kPart));
+  std::vector<std::vector<std::pair<std::uint32_t, Plane>>> found(part_count(count, kSitesPerPart));
   parallel_for(found.size(), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, count, kPart);
+    const auto [begin, end] = part_of(part, count, kSitesPerPart);
     std::vector<Offset> offsets;
     for (std::size_t i = begin; i < end; ++i) {
       // Normals may tell two sides where all is within the noise of one plane.

@@ -26,14 +26,14 @@ struct PcdField {
   std::uint64_t bytes() const { return size * count; }
 };
 
-enum class Encoding { ascii, binary, binary_compressed };
+enum class PcdEncoding { ascii, binary, binary_compressed };
 
-struct Header {
+struct PcdHeader {
   std::vector<PcdField> fields;
   std::uint64_t width = 0, height = 1, points = 0;
   bool has_points = false;
   std::vector<double> viewpoint;  // position and quaternion w x y z; empty where the file has none
-  Encoding encoding = Encoding::ascii;
+  PcdEncoding encoding = PcdEncoding::ascii;
 
   std::uint64_t record_size() const {
     std::uint64_t size = 0;
@@ -43,11 +43,11 @@ struct Header {
 };
 
 // Reads a PCD header line by line, up to its DATA line; each error names the line.
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  explicit HeaderReader(LineReader& lines) : lines_(lines) {}
+  explicit PcdHeaderReader(LineReader& lines) : lines_(lines) {}
 
-  Header read() {
+  PcdHeader read() {
     std::string line;
     while (lines_.next_line(line)) {
       if (lines_.line_number() > 1000) fail("the header has no end");
@@ -109,16 +109,16 @@ class HeaderReader {
     std::string name;
     words >> name;
     if (name == "ascii")
-      header_.encoding = Encoding::ascii;
+      header_.encoding = PcdEncoding::ascii;
     else if (name == "binary")
-      header_.encoding = Encoding::binary;
+      header_.encoding = PcdEncoding::binary;
     else if (name == "binary_compressed")
-      header_.encoding = Encoding::binary_compressed;
+      header_.encoding = PcdEncoding::binary_compressed;
     else
       fail(fmt::format("unknown PCD data format '{}'", name.substr(0, 40)));
   }
 
-  Header finish() {
+  PcdHeader finish() {
     if (header_.fields.empty()) fail("the header has no FIELDS");
     if (header_.record_size() == 0) fail("the fields have no bytes");
     if (header_.record_size() > kLongestRecord) fail("a point has too many bytes");
@@ -131,7 +131,7 @@ class HeaderReader {
   }
 
   LineReader& lines_;
-  Header header_;
+  PcdHeader header_;
 };
 
 NumberType number_type(const PcdField& field, const std::string& name) {
@@ -147,7 +147,7 @@ NumberType number_type(const PcdField& field, const std::string& name) {
               fmt::format("{}: field '{}' has the unknown type {}", name, field.name, code));
 }
 
-std::vector<Role> field_roles(const Header& header, const std::string& name) {
+std::vector<Role> field_roles(const PcdHeader& header, const std::string& name) {
   std::vector<Role> roles;
   for (const PcdField& f : header.fields) {
     Role role = f.count == 1 ? role_of(f.name) : Role::none;
@@ -164,7 +164,7 @@ std::vector<Role> field_roles(const Header& header, const std::string& name) {
 
 // The fields of records that lie one after the other (stride = record), or of whole columns (stride
 // = value).
-RecordLayout binary_layout(const Header& header, const std::string& name, bool columns) {
+RecordLayout binary_layout(const PcdHeader& header, const std::string& name, bool columns) {
   const std::vector<Role> roles = field_roles(header, name);
   RecordLayout layout{.count = header.points};
   std::uint64_t offset = 0;
@@ -185,7 +185,7 @@ void check_length(const std::string& name, std::uint64_t points, std::uint64_t r
                                               name, points, room));
 }
 
-RowSource open_ascii(LineReader& lines, const Header& header) {
+RowSource open_ascii(LineReader& lines, const PcdHeader& header) {
   const std::vector<Role> roles = field_roles(header, lines.name());
   TextLayout layout{.rows = header.points};
   for (std::size_t i = 0; i < roles.size(); ++i) {
@@ -197,14 +197,14 @@ RowSource open_ascii(LineReader& lines, const Header& header) {
   return rows_in_memory(lines.name(), read_text_rows(lines, layout));
 }
 
-RowSource open_binary(const LineReader& lines, const Header& header) {
+RowSource open_binary(const LineReader& lines, const PcdHeader& header) {
   const auto file = std::make_shared<const InputFile>(lines.name());
   check_length(file->name(), header.points, (file->size() - lines.offset()) / header.record_size());
   return record_rows(file, lines.offset(), header.record_size(),
                      binary_layout(header, file->name(), false));
 }
 
-RowSource open_compressed(const LineReader& lines, const Header& header) {
+RowSource open_compressed(const LineReader& lines, const PcdHeader& header) {
   const InputFile file(lines.name());
   const auto fail = [&](const std::string& what) {
     throw Error(Cause::bad_input, file.name() + ": " + what);
@@ -232,14 +232,14 @@ RowSource open_compressed(const LineReader& lines, const Header& header) {
 
 RowSource open_pcd(const std::filesystem::path& path) {
   LineReader lines(path);
-  const Header header = HeaderReader(lines).read();
-  if (lines.gzipped() && header.encoding != Encoding::ascii)
+  const PcdHeader header = PcdHeaderReader(lines).read();
+  if (lines.gzipped() && header.encoding != PcdEncoding::ascii)
     throw Error(
         Cause::bad_input,
         lines.name() + ": binary PCD in gzip is not supported; unpack it with gunzip first");
-  RowSource rows = header.encoding == Encoding::ascii    ? open_ascii(lines, header)
-                   : header.encoding == Encoding::binary ? open_binary(lines, header)
-                                                         : open_compressed(lines, header);
+  RowSource rows = header.encoding == PcdEncoding::ascii    ? open_ascii(lines, header)
+                   : header.encoding == PcdEncoding::binary ? open_binary(lines, header)
+                                                            : open_compressed(lines, header);
   const bool organised =
       header.height > 1 && header.width > 1 && header.points / header.height == header.width;
   if (organised) rows.image_width = header.width;

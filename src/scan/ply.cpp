@@ -42,19 +42,19 @@ struct Element {
   }
 };
 
-enum class Encoding { ascii, little_endian, big_endian };
+enum class PlyEncoding { ascii, little_endian, big_endian };
 
-struct Header {
-  Encoding encoding = Encoding::ascii;
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<Element> elements;
 };
 
 // Reads a PLY header line by line; each error names the line.
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  explicit HeaderReader(LineReader& lines) : lines_(lines) {}
+  explicit PlyHeaderReader(LineReader& lines) : lines_(lines) {}
 
-  Header read() {
+  PlyHeader read() {
     std::string line;
     if (!lines_.next_line(line) || line != "ply")
       fail("is not a PLY file: the first line is not 'ply'");
@@ -85,10 +85,10 @@ class HeaderReader {
   }
 
   void read_format(std::istream& words) {
-    static const std::map<std::string, Encoding> encodings = {
-        {"ascii", Encoding::ascii},
-        {"binary_little_endian", Encoding::little_endian},
-        {"binary_big_endian", Encoding::big_endian}};
+    static const std::map<std::string, PlyEncoding> encodings = {
+        {"ascii", PlyEncoding::ascii},
+        {"binary_little_endian", PlyEncoding::little_endian},
+        {"binary_big_endian", PlyEncoding::big_endian}};
     std::string name;
     words >> name;
     const auto found = encodings.find(name);
@@ -136,7 +136,7 @@ class HeaderReader {
   }
 
   LineReader& lines_;
-  Header header_;
+  PlyHeader header_;
 };
 
 std::vector<Role> vertex_roles(const Element& vertex, const std::string& name) {
@@ -159,7 +159,7 @@ std::vector<Role> vertex_roles(const Element& vertex, const std::string& name) {
                           element.count, element.name, have));
 }
 
-RowSource open_ascii(LineReader& lines, const Header& header, std::size_t vertex_at) {
+RowSource open_ascii(LineReader& lines, const PlyHeader& header, std::size_t vertex_at) {
   std::string line;
   for (std::size_t e = 0; e < vertex_at; ++e)
     for (std::uint64_t i = 0; i < header.elements[e].count; ++i)
@@ -201,13 +201,13 @@ std::uint64_t skip_binary(const InputFile& file, const Element& element, std::ui
   return at;
 }
 
-RowSource open_binary(const LineReader& lines, const Header& header, std::size_t vertex_at) {
+RowSource open_binary(const LineReader& lines, const PlyHeader& header, std::size_t vertex_at) {
   if (lines.gzipped())
     throw Error(
         Cause::bad_input,
         lines.name() + ": binary PLY in gzip is not supported; unpack it with gunzip first");
   const auto file = std::make_shared<const InputFile>(lines.name());
-  const bool big_endian = header.encoding == Encoding::big_endian;
+  const bool big_endian = header.encoding == PlyEncoding::big_endian;
   std::uint64_t begin = lines.offset();
   for (std::size_t e = 0; e < vertex_at; ++e)
     begin = skip_binary(*file, header.elements[e], begin, big_endian);
@@ -228,7 +228,7 @@ RowSource open_binary(const LineReader& lines, const Header& header, std::size_t
   return record_rows(file, begin, vertex.record_size(), layout);
 }
 
-std::size_t find_vertex(const Header& header, const std::string& name) {
+std::size_t find_vertex(const PlyHeader& header, const std::string& name) {
   for (std::size_t i = 0; i < header.elements.size(); ++i)
     if (header.elements[i].name == "vertex" && !header.elements[i].properties.empty()) return i;
   throw Error(Cause::bad_input, name + ": the header has no element 'vertex' with properties");
@@ -238,15 +238,15 @@ std::size_t find_vertex(const Header& header, const std::string& name) {
 
 RowSource open_ply(const std::filesystem::path& path) {
   LineReader lines(path);
-  const Header header = HeaderReader(lines).read();
+  const PlyHeader header = PlyHeaderReader(lines).read();
   const std::size_t vertex = find_vertex(header, lines.name());
-  if (header.encoding == Encoding::ascii) return open_ascii(lines, header, vertex);
+  if (header.encoding == PlyEncoding::ascii) return open_ascii(lines, header, vertex);
   return open_binary(lines, header, vertex);
 }
 
 bool is_ply_mesh(const std::filesystem::path& path) {
   LineReader lines(path);
-  for (const Element& element : HeaderReader(lines).read().elements)
+  for (const Element& element : PlyHeaderReader(lines).read().elements)
     if (element.name == "face" && element.count > 0) return true;
   return false;
 }

@@ -84,13 +84,12 @@ std::vector<Vec3> read_poses(const std::filesystem::path& path) {
 }
 
 std::string fingerprint(const PointCloud& cloud) {
-  constexpr std::size_t kPart = 1 << 16;
   struct Sum {
     std::uint64_t low = 0, high = 0;
   };
-  std::vector<Sum> sums(part_count(cloud.points.size(), kPart));
+  std::vector<Sum> sums(part_count(cloud.points.size(), kPointsPerPart));
   parallel_for(sums.size(), [&](std::size_t i) {
-    const Part part = part_of(i, cloud.points.size(), kPart);
+    const Part part = part_of(i, cloud.points.size(), kPointsPerPart);
     for (std::size_t k = part.begin; k < part.end; ++k) {
       const Vec3 p = cloud.points[k].cast<double>() + cloud.origin + Vec3::Zero();  // makes -0 a 0
       std::uint64_t h = 0;

@@ -84,7 +84,7 @@ void simplify(const std::vector<Vec2>& points, std::size_t first, std::size_t la
   simplify(points, at, last, tolerance, ends);
 }
 
-struct Piece {
+struct EdgePiece {
   Vec2 from, to, outward;  // unit vector
   double offset = 0;       // outward . x on it
 };
@@ -101,7 +101,7 @@ class EdgeFinder {
     }
   }
 
-  std::vector<Piece> find() {
+  std::vector<EdgePiece> find() {
     for (const std::vector<Vec2>& loop : Outlines(patch_.covered).trace()) add_loop(loop);
     return std::move(pieces_);
   }
@@ -192,13 +192,13 @@ class EdgeFinder {
   const FreeEdgeOptions& options_;
   std::vector<Line> lines_;
   std::vector<double> angles_;
-  std::vector<Piece> pieces_;
+  std::vector<EdgePiece> pieces_;
 };
 
 // The pieces near each square of 8 x 8 cells.
 class NearPieces {
  public:
-  NearPieces(const Raster& raster, const std::vector<Piece>& pieces, double reach)
+  NearPieces(const Raster& raster, const std::vector<EdgePiece>& pieces, double reach)
       : low_(raster.low),
         square_(8 * raster.cell),
         width_(raster.width / 8 + 1),
@@ -206,7 +206,7 @@ class NearPieces {
         lists_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
     const double around = reach + square_;  // more than half a square's diagonal
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const Piece& p = pieces[k];
+      const EdgePiece& p = pieces[k];
       const Vec2 low = ((p.from.cwiseMin(p.to).array() - reach).matrix() - low_) / square_,
                  high = ((p.from.cwiseMax(p.to).array() + reach).matrix() - low_) / square_;
       for (int y = std::max(0, static_cast<int>(low.y()));
@@ -241,14 +241,14 @@ class NearPieces {
 // median of their places is as far from the edge as points of this density leave it (the first of a
 // Poisson process).
 void refine(const PointCloud& cloud, std::span<const std::uint32_t> members, const Patch& patch,
-            std::vector<Piece>& pieces) {
+            std::vector<EdgePiece>& pieces) {
   const double reach = 2.5 * patch.covered.cell, width = 2 * patch.covered.cell;
   struct Bins {
     std::vector<double> farthest;
     std::size_t points = 0;
   };
   std::vector<Bins> bins;
-  for (const Piece& p : pieces)
+  for (const EdgePiece& p : pieces)
     bins.push_back(
         {std::vector<double>(
              std::max<std::size_t>(1, static_cast<std::size_t>((p.to - p.from).norm() / width)),
@@ -258,7 +258,7 @@ void refine(const PointCloud& cloud, std::span<const std::uint32_t> members, con
   for (std::uint32_t i : members) {
     const Vec2 q = patch.frame.to_plane(cloud.points[i].cast<double>());
     for (std::uint32_t k : near.at(q)) {
-      const Piece& p = pieces[k];
+      const EdgePiece& p = pieces[k];
       const double off = p.outward.dot(q) - p.offset;
       if (std::abs(off) > reach) continue;
       const double length = (p.to - p.from).norm(), t = (p.to - p.from).dot(q - p.from) / length;
@@ -275,7 +275,7 @@ void refine(const PointCloud& cloud, std::span<const std::uint32_t> members, con
     const auto middle = farthest.begin() + static_cast<std::ptrdiff_t>(farthest.size() / 2);
     std::nth_element(farthest.begin(), middle, farthest.end());
     if (*middle < -reach) continue;
-    Piece& p = pieces[k];
+    EdgePiece& p = pieces[k];
     const double length = (p.to - p.from).norm();
     const double density = static_cast<double>(bins[k].points) / (length * (*middle + reach));
     const double bin = length / static_cast<double>(farthest.size());
@@ -290,10 +290,10 @@ std::vector<FreeEdge> find_free_edges(const PointCloud& cloud,
                                       std::span<const std::uint32_t> members, const Patch& patch,
                                       const std::vector<CutLine>& lines,
                                       const FreeEdgeOptions& options) {
-  std::vector<Piece> pieces = EdgeFinder(patch, lines, options).find();
+  std::vector<EdgePiece> pieces = EdgeFinder(patch, lines, options).find();
   refine(cloud, members, patch, pieces);
   std::vector<FreeEdge> edges;
-  for (const Piece& p : pieces) {
+  for (const EdgePiece& p : pieces) {
     const Vec3 outward = p.outward.x() * patch.frame.u + p.outward.y() * patch.frame.v;
     const Vec3 from = patch.frame.to_space(p.from);
     edges.push_back({.from = from,

@@ -164,7 +164,7 @@ class PatchMaker {
 
   void weigh(Patch& patch) const {
     const std::vector<float> expected = expect(patch);
-    patch.evidence.resize(expected.size());
+    patch.evidence.assign(expected.size(), 0);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       // Of points that come by chance, the share of cells that would have one.
       const double seen = 1 - std::exp(-static_cast<double>(expected[i]));

@@ -13,7 +13,6 @@ namespace scanworld::thesis {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 16;
 constexpr std::size_t kSample = 1 << 16;  // points that tell the rough size
 constexpr int kLevels = 16;         // sizes of cells that are looked at, each twice the one before
 constexpr double kManyLone = 0.30;  // share of cells with a single point that is too large
@@ -161,9 +160,9 @@ Box3 bounds_of(const std::vector<Vec3f>& points, const std::vector<std::uint64_t
     const Vec3 corner = corner_of(keys[first] >> 3 * level << 3 * level, finest);
     outer.extend(corner).extend(corner + Vec3::Constant(size));
   });
-  std::vector<Box3> boxes(part_count(points.size(), kPart));
+  std::vector<Box3> boxes(part_count(points.size(), kPointsPerPart));
   parallel_for(boxes.size(), [&](std::size_t i) {
-    const Part part = part_of(i, points.size(), kPart);
+    const Part part = part_of(i, points.size(), kPointsPerPart);
     for (std::size_t k = part.begin; k < part.end; ++k)
       if (const Vec3 p = points[k].cast<double>(); outer.contains(p)) boxes[i].extend(p);
   });

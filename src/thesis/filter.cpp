@@ -13,8 +13,6 @@ namespace scanworld::thesis {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 16;
-
 constexpr std::uint64_t kNoCell = UINT64_MAX;
 
 struct Entry {
@@ -34,8 +32,8 @@ std::uint64_t key_of(const Cell& c) {
 std::vector<Entry> sort_into_cubes(const std::vector<Vec3f>& points, const Vec3& corner,
                                    double delta) {
   std::vector<Entry> entries(points.size());
-  parallel_for(part_count(points.size(), kPart), [&](std::size_t i) {
-    const Part part = part_of(i, points.size(), kPart);
+  parallel_for(part_count(points.size(), kPointsPerPart), [&](std::size_t i) {
+    const Part part = part_of(i, points.size(), kPointsPerPart);
     for (std::size_t k = part.begin; k < part.end; ++k) {
       const auto cell = cell_of(points[k].cast<double>(), corner, delta);
       entries[k] = {cell ? key_of(*cell) : kNoCell, static_cast<std::uint32_t>(k)};

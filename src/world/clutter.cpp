@@ -15,7 +15,6 @@ namespace scanworld {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 14;
 constexpr double kReach = 1 << 19;  // [cells] points farther from the origin are not looked at
 
 // A point by its cube: a cell's number, 20 bits an axis, then that of its eighth.
@@ -41,6 +40,7 @@ std::uint64_t key_of(const Vec3& p, double cell) {
 // The unlabelled points, by cube.
 std::vector<Entry> sort_points(const PointCloud& cloud, const std::vector<std::int32_t>& labels,
                                double cell) {
+  constexpr std::size_t kPart = 1 << 14;
   const std::size_t parts = part_count(labels.size(), kPart);
   std::vector<std::vector<Entry>> found(parts);
   parallel_for(parts, [&](std::size_t part) {

@@ -89,11 +89,11 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 std::vector<std::vector<Vec2>> convex_parts(const geos::Rings& polygon, double tolerance) {
   const auto triangles = geos::triangulate(straightened(polygon, tolerance / 2));
   if (!triangles) return {};
-  struct Part {
+  struct ConvexPart {
     std::vector<Vec2> corners;   // of its hull
     std::vector<Vec2> vertices;  // of its triangles: all of them are on the polygon's outline
   };
-  std::vector<Part> parts;
+  std::vector<ConvexPart> parts;
   for (const auto& t : *triangles) parts.push_back({{t.begin(), t.end()}, {t.begin(), t.end()}});
   DisjointSets sets(parts.size());
   const std::vector<Diagonal> diagonals = diagonals_of(*triangles);
@@ -102,7 +102,7 @@ std::vector<std::vector<Vec2>> convex_parts(const geos::Rings& polygon, double t
     for (const Diagonal& d : diagonals) {
       const std::uint32_t a = sets.find(d.a), b = sets.find(d.b);
       if (a == b) continue;
-      Part both{parts[a].corners, parts[a].vertices};
+      ConvexPart both{parts[a].corners, parts[a].vertices};
       both.corners.insert(both.corners.end(), parts[b].corners.begin(), parts[b].corners.end());
       both.corners = convex_hull(std::move(both.corners));
       both.vertices.insert(both.vertices.end(), parts[b].vertices.begin(), parts[b].vertices.end());

@@ -13,7 +13,7 @@ namespace scanworld {
 namespace {
 
 constexpr double kSameDirection = 0.01;  // [rad] edges that are parallel or square to each other
-constexpr double kMinSine = 0.17;        // of the angle at a corner (10 degrees)
+constexpr double kMinCornerSine = 0.17;  // of the angle at a corner (10 degrees)
 constexpr double kFlat = 0.9986;         // cosine between faces that go on flat (3 degrees)
 
 // The angle of an edge, modulo a quarter turn [rad].
@@ -106,7 +106,7 @@ std::vector<std::vector<FaceEdge>> edges_of(const std::vector<Face>& faces, std:
       FaceEdge edge{ring[e], ring[(e + 1) % ring.size()]};
       const Vec2 out = edge.out();
       const Vec3 inwards = -(face.frame.u * out.x() + face.frame.v * out.y());
-      double steepest = kMinSine, squarest = kMinSine;
+      double steepest = kMinCornerSine, squarest = kMinCornerSine;
       for (std::size_t k : near) {
         const Face& other = faces[k];
         if (!std::all_of(std::begin(kPlaces), std::end(kPlaces), [&](double t) {

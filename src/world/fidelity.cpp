@@ -23,7 +23,6 @@ namespace scanworld {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 14;
 constexpr double kFewPoints = 0.01;  // share near the world below which it is of another place
 
 // About `wanted` points of the cloud, chosen and ordered by their coordinates.
@@ -35,6 +34,7 @@ std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
   const double share =
       static_cast<double>(wanted) / static_cast<double>(std::max(wanted, cloud.size()));
   const auto limit = static_cast<std::uint64_t>(share * 0x1p53);
+  constexpr std::size_t kPart = 1 << 14;
   std::vector<std::vector<Ranked>> parts(part_count(cloud.size(), kPart));
   parallel_for(parts.size(), [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.size(), kPart);

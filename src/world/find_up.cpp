@@ -12,7 +12,7 @@ namespace scanworld {
 namespace {
 
 constexpr std::size_t kMostCandidates = 24;  // planes whose pairs are tried
-constexpr double kMinSine = 0.2;             // between walls that tell an up together
+constexpr double kMinWallSine = 0.2;         // between walls that tell an up together
 constexpr double kSmooth = 0.0005;   // [rad] angles below this count as squares: noise, no outliers
 constexpr double kAxisShare = 0.02;  // of the weight, that the axis speaks with: so little that
                                      // it matters only where nothing else tells
@@ -78,7 +78,7 @@ class UpFinder {
       if (std::abs(n.dot(axis_)) > std::sin(options_.max_angle)) continue;
       add((axis_ - axis_.dot(n) * n).normalized());
       for (const Vec3& other : walls)
-        if (const Vec3 along = n.cross(other); along.norm() > kMinSine) add(along.normalized());
+        if (const Vec3 along = n.cross(other); along.norm() > kMinWallSine) add(along.normalized());
       if (walls.size() < kMostCandidates) walls.push_back(n);
     }
     return found;

@@ -149,7 +149,7 @@ bool is_in(const Range& range, double v, double margin) {
 }
 
 // A rectangle in plan at an angle, and how many points lie on the faces of the box over it.
-struct Rectangle {
+struct PlanRectangle {
   double angle = 0;
   Range x{}, y{};
   std::size_t on = 0;
@@ -160,9 +160,9 @@ struct Rectangle {
   }
 };
 
-Rectangle rectangle_at(double angle, const Upright& points, const Range& z, double noise,
-                       double tolerance) {
-  Rectangle r{.angle = angle};
+PlanRectangle rectangle_at(double angle, const Upright& points, const Range& z, double noise,
+                           double tolerance) {
+  PlanRectangle r{.angle = angle};
   std::vector<double> xs, ys;
   for (const Vec2& q : points.plan) {
     const Vec2 t = r.turned(q);
@@ -180,16 +180,16 @@ Rectangle rectangle_at(double angle, const Upright& points, const Range& z, doub
 
 // The rectangle with most points on it, over all angles. What a coarse angle is off, its faces may
 // be off too.
-std::optional<Rectangle> best_rectangle(const Upright& points, const Range& z, double noise,
-                                        double tolerance) {
+std::optional<PlanRectangle> best_rectangle(const Upright& points, const Range& z, double noise,
+                                            double tolerance) {
   Eigen::AlignedBox2d box;
   for (const Vec2& q : points.plan) box.extend(q);
   const double radius = box.diagonal().norm() / 2;
   double step = M_PI / 36;
-  Rectangle best;
+  PlanRectangle best;
   const auto look = [&](double angle) {
     const double slack = radius * step / 2;
-    const Rectangle r = rectangle_at(angle, points, z, noise + slack / 3, tolerance + slack);
+    const PlanRectangle r = rectangle_at(angle, points, z, noise + slack / 3, tolerance + slack);
     if (r.on > best.on) best = r;
   };
   for (int k = 0; k < 18; ++k) look(k * step);
@@ -203,7 +203,7 @@ std::optional<Rectangle> best_rectangle(const Upright& points, const Range& z, d
 }
 
 // Whether no face is off its points over a part of it.
-bool lies_on_faces(const Rectangle& r, const Upright& points, const Range& z, double noise,
+bool lies_on_faces(const PlanRectangle& r, const Upright& points, const Range& z, double noise,
                    double tolerance) {
   Residuals residuals(noise);
   const std::array<Range, 3> ranges = {r.x, r.y, z};
@@ -319,7 +319,7 @@ std::optional<OrientedBox> fit_box(std::span<const Vec3> points, const Vec3& up,
   const double tolerance = tolerance_of(noise, options);
   const Upright all(points, up);
   const Range z = faces_of(all.height, noise);
-  const std::optional<Rectangle> best = best_rectangle(all, z, noise, tolerance);
+  const std::optional<PlanRectangle> best = best_rectangle(all, z, noise, tolerance);
   if (!best ||
       static_cast<double>(best->on) < options.min_share * static_cast<double>(points.size()) ||
       !lies_on_faces(*best, all, z, noise, tolerance))

@@ -16,11 +16,10 @@ namespace scanworld {
 
 namespace {
 
-constexpr std::size_t kPart = 1 << 14;
-
 // Calls body(p) for every point of the cloud that is in the box, by several threads.
 template <typename Body>
 void for_points_in(const Box3& box, const CloudInWorld& cloud, const Body& body) {
+  constexpr std::size_t kPart = 1 << 14;
   parallel_for(part_count(cloud.size(), kPart), [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.size(), kPart);
     for (std::size_t k = begin; k < end; ++k)

@@ -11,7 +11,7 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kMaxPlaces = 3000;  // that are tried, about; all pairs of them are looked at
+constexpr double kMaxViewpoints = 3000;  // that are tried, about; all pairs of them are looked at
 
 // Points over the floors where a scanner can stand.
 std::vector<Vec3> standing_places(const World& world, const RayScene& scene,
@@ -21,7 +21,7 @@ std::vector<Vec3> standing_places(const World& world, const RayScene& scene,
   double floor_area = 0;
   for (const Surface& s : world.surfaces)
     if (s.kind == Kind::floor) floor_area += area(world, s);
-  const double spacing = std::max(options.spacing, std::sqrt(floor_area / kMaxPlaces));
+  const double spacing = std::max(options.spacing, std::sqrt(floor_area / kMaxViewpoints));
   std::vector<Vec3> places;
   for (std::size_t s = 0; s < world.surfaces.size(); ++s) {
     const Surface& floor = world.surfaces[s];

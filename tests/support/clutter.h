@@ -9,6 +9,8 @@
 
 namespace scanworld::test {
 
+constexpr double kThingSpacing = 0.02;  // [m] between points
+
 // Points of a sphere's surface, as dense as a square of `spacing` each, with noise.
 void add_ball(std::vector<Vec3>& points, const Vec3& center, double radius, double spacing,
               double noise, Random& random);

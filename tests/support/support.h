@@ -19,6 +19,9 @@
 
 namespace scanworld::test {
 
+constexpr double kDegree = M_PI / 180;
+constexpr double kNoise = 0.005;  // [m] of a scan, where it does not matter
+
 // A new folder that is removed with all it holds.
 class TempFolder {
  public:
