@@ -13,7 +13,9 @@
 #include "thesis/walls.h"
 #include "version.h"
 #include "world/assemble.h"
+#include "world/cloud_in_world.h"
 #include "world/find_frame.h"
+#include "world/glass.h"
 #include "world/obstacles.h"
 #include "world/openings.h"
 
@@ -121,19 +123,42 @@ std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::
   return facings;
 }
 
+// What a method finds.
+struct Found {
+  std::vector<FoundSurface> surfaces;
+  surface::Surroundings around;
+};
+
+// The lines of sight to what is around.
+std::vector<SightLine> sight_lines_of(const surface::Surroundings& around,
+                                      const CloudInWorld& place) {
+  std::vector<SightLine> lines;
+  for (std::size_t i = 0; i < around.viewers.size(); ++i)
+    if (const std::int32_t v = around.viewers[i]; v >= 0)
+      lines.push_back({place.to_world(around.viewpoints[static_cast<std::size_t>(v)]),
+                       place.to_world(around.points[i].cast<double>())});
+  return lines;
+}
+
+std::vector<Vec3> places_of(const surface::Surroundings& around, const CloudInWorld& place) {
+  std::vector<Vec3> places;
+  for (const Vec3f& p : around.points) places.push_back(place.to_world(p.cast<double>()));
+  return places;
+}
+
 // The planes' polygons. A plane's points are labelled with its largest piece.
 template <typename Around>
-std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
-                                        double voxel, const Around& find_around,
-                                        const surface::SurfaceOptions& options, StageLog& log,
-                                        ReconstructResult& result) {
+Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, double voxel,
+                    const Around& find_around, const surface::SurfaceOptions& options,
+                    StageLog& log, ReconstructResult& result) {
   using namespace surface;
   Members members;
+  std::optional<PatchRays> rays;
   std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
     members = group_points(result.labels, planes.size());
     std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
-    const PatchRays rays(found);
-    return face_free_side(std::move(found), rays, cloud, members, options.facing);
+    rays.emplace(found);
+    return face_free_side(std::move(found), *rays, cloud, members, options.facing);
   });
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
                                           [&] { return find_seams(patches, options.seams); });
@@ -141,6 +166,9 @@ std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vect
   Surroundings around;
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
     around = find_around();
+    around.viewpoints = cloud.viewpoints;
+    around.viewers = find_viewers(around, *rays, cloud.viewpoints, options.gaps.through);
+    rays.reset();
     std::vector<Plane> faced;
     for (const Patch& patch : patches) faced.push_back(patch.plane);
     const Vec3 up = find_frame(cloud, facings_of(faced, members)).up;
@@ -156,16 +184,17 @@ std::vector<FoundSurface> make_surfaces(const PointCloud& cloud, const std::vect
   const Pieces pieces = log.run("Outlining", "patches -> polygons", patches, [&] {
     return add_reveals(outline_patches(patches, lines, edges, options), options.reveals);
   });
-  return log.run("Welding", "polygons -> surfaces", pieces, [&] {
+  std::vector<FoundSurface> surfaces = log.run("Welding", "polygons -> surfaces", pieces, [&] {
     const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
     relabel(welded, planes.size(), result);
     return describe(cloud, members, patches, pieces.planes, welded);
   });
+  return {std::move(surfaces), std::move(around)};
 }
 
 // The default method, docs/method.md.
-std::vector<FoundSurface> find_by_rival(const PointCloud& cloud, const ReconstructOptions& all,
-                                        StageLog& log, ReconstructResult& result) {
+Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, StageLog& log,
+                    ReconstructResult& result) {
   using namespace rival;
   const RivalOptions& options = all.rival;
   const Scale scale = log.run("Estimating the scale", "points -> lengths", cloud,
@@ -244,20 +273,25 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                               const Progress& progress) {
   ReconstructResult result;
   StageLog log(result.report, progress, options.method == Method::thesis ? 14 : 22);
-  std::vector<FoundSurface> surfaces = options.method == Method::thesis
-                                           ? find_by_thesis(cloud, options.thesis, log, result)
-                                           : find_by_rival(cloud, options, log, result);
-  drop_degenerate(surfaces, result);
-  if (surfaces.empty())
+  Found found = options.method == Method::thesis
+                    ? Found{find_by_thesis(cloud, options.thesis, log, result), {}}
+                    : find_by_rival(cloud, options, log, result);
+  drop_degenerate(found.surfaces, result);
+  if (found.surfaces.empty())
     throw Error(
         Cause::nothing_found,
         fmt::format("no plane found in {} points (they were looked at in cubes of {:.3g} m)",
                     cloud.points.size(), result.report.scale));
-  if (result.report.noise == 0) result.report.noise = median_rms(surfaces);
-  result.world = assemble_world(surfaces, find_frame(cloud, facings_of(surfaces)));
+  if (result.report.noise == 0) result.report.noise = median_rms(found.surfaces);
+  result.world = assemble_world(found.surfaces, find_frame(cloud, facings_of(found.surfaces)));
   World& world = result.world;
-  world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces,
-                           [&] { return find_openings(world); });
+  world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
+    const CloudInWorld place(cloud, world.frame);
+    std::vector<Opening> openings = find_openings(world, sight_lines_of(found.around, place));
+    return flag_glass(world, std::move(openings), places_of(found.around, place),
+                      place.viewpoints());
+  });
+  found = {};
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
                                               [&] { return pair_faces(world, options.thickness); });
   set_thickness(world, pairs);

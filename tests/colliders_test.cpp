@@ -50,7 +50,7 @@ std::vector<FoundSurface> prism(const std::vector<Vec2>& plan, double low, doubl
   return faces;
 }
 
-std::vector<Vec2> rectangle(double x0, double y0, double x1, double y1) {
+std::vector<Vec2> ring_of(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
@@ -139,7 +139,7 @@ std::size_t boxes(const World& world) {
 }  // namespace
 
 TEST_CASE("a room is a box a face, off its inside, and closed") {
-  const World world = world_of({prism(rectangle(0, 0, 5, 4), 0, 2.5, true)});
+  const World world = world_of({prism(ring_of(0, 0, 5, 4), 0, 2.5, true)});
   CHECK(world.colliders.size() == 6);
   CHECK(boxes(world) == 6);
   CHECK(free_share(world, [](const Vec3& p) { return is_within(p, {0, 0, 0}, {5, 4, 2.5}); }) == 0);
@@ -149,7 +149,7 @@ TEST_CASE("a room is a box a face, off its inside, and closed") {
 }
 
 TEST_CASE("a room turned in space is no different") {
-  World world = assemble_world(prism(rectangle(0, 0, 5, 4), 0, 2.5, true), {});
+  World world = assemble_world(prism(ring_of(0, 0, 5, 4), 0, 2.5, true), {});
   const Eigen::AngleAxisd turn(0.7, Vec3(0.1, 0.2, 1).normalized());
   for (Vec3& v : world.vertices) v = turn * v + Vec3(100, -50, 7);
   for (Surface& s : world.surfaces) {
@@ -255,7 +255,7 @@ TEST_CASE("doors and windows stay open, and both faces of a wall have the same b
 
 TEST_CASE("a free-standing partition is one box as thick as it is") {
   for (double thickness : {0.03, 0.1, 0.25}) {
-    const World world = world_of({prism(rectangle(1, 1, 4, 1 + thickness), 0, 1.8, false, false),
+    const World world = world_of({prism(ring_of(1, 1, 4, 1 + thickness), 0, 1.8, false, false),
                                   {face({{-1, -1, 0}, {6, -1, 0}, {6, 4, 0}, {-1, 4, 0}})}});
     CHECK(world.colliders.size() == 2);
     CHECK(free_share(world, [&](const Vec3& p) {
@@ -266,11 +266,11 @@ TEST_CASE("a free-standing partition is one box as thick as it is") {
 
 TEST_CASE("things that are closed around are one box; a table leaves the room under it") {
   const FoundSurface floor = face({{-2, -2, 0}, {4, -2, 0}, {4, 4, 0}, {-2, 4, 0}});
-  const World cupboard = world_of({{floor}, prism(rectangle(0, 0, 1, 0.5), 0, 0.9, false, false)});
+  const World cupboard = world_of({{floor}, prism(ring_of(0, 0, 1, 0.5), 0, 0.9, false, false)});
   CHECK(cupboard.colliders.size() == 2);
   check_closed(cupboard, {{2, 2, 1}, {-1, 0.2, 0.3}, {0.5, 0.2, 1.5}});
 
-  const World table = world_of({{floor}, prism(rectangle(0, 0, 1.6, 0.8), 0.7, 0.74, false)});
+  const World table = world_of({{floor}, prism(ring_of(0, 0, 1.6, 0.8), 0.7, 0.74, false)});
   CHECK(table.colliders.size() == 2);
   const World solids = solids_of(table);
   CHECK(RayScene(solids).is_free({-1, 0.4, 0.698}, {3, 0.4, 0.698}));

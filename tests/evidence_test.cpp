@@ -56,7 +56,7 @@ std::size_t found_beside_floor(PointCloud cloud, double noise) {
   const Clustering c = s.confirm();
   check_clustering(s.grid, c);
   std::size_t floors = 0, others = 0;
-  for (const Cluster& k : c.clusters)
+  for (const rival::Cluster& k : c.clusters)
     ++(std::abs(k.fit.plane.normal.z()) > 0.999 && std::abs(k.fit.centroid.z()) < noise ? floors
                                                                                         : others);
   CHECK(floors == 1);

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::size_t entries(const fs::path& folder) {
+std::size_t files_in(const fs::path& folder) {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -26,13 +26,13 @@ TEST_CASE("a file appears whole or not at all") {
     file.write("new");
   }  // not committed
   CHECK(read_file(path) == "old");
-  CHECK(entries(folder.path()) == 1);
+  CHECK(files_in(folder.path()) == 1);
   OutputFile file(path);
   file.write("new");
   CHECK(read_file(path) == "old");
   file.commit();
   CHECK(read_file(path) == "new");
-  CHECK(entries(folder.path()) == 1);
+  CHECK(files_in(folder.path()) == 1);
 }
 
 TEST_CASE(
@@ -43,14 +43,14 @@ TEST_CASE(
     OutputFolder out(path, "world.json");
     write_file(out.path() / "world.json", "1");
   }
-  CHECK(entries(folder.path()) == 0);
+  CHECK(files_in(folder.path()) == 0);
   for (const char* text : {"1", "2"}) {
     OutputFolder out(path, "world.json");
     write_file(out.path() / "world.json", text);
     out.commit();
   }
   CHECK(read_file(path / "world.json") == "2");
-  CHECK(entries(folder.path()) == 1);
+  CHECK(files_in(folder.path()) == 1);
   fs::create_directory(folder / "holiday");
   write_file(folder / "holiday/photo.jpg", "precious");
   CHECK(contains(error_of(Cause::failure, [&] { OutputFolder(folder / "holiday", "world.json"); }),

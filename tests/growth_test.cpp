@@ -15,7 +15,7 @@ TEST_CASE("the faces of a room grow, in six clusters or more that take nearly al
     check_clustering(s.grid, c);
     CHECK(c.clusters.size() >= 6);
     double taken = 0, all = 0;
-    for (const Cluster& k : c.clusters) taken += k.moments.n;
+    for (const rival::Cluster& k : c.clusters) taken += k.moments.n;
     for (const Site& site : s.grid.sites) all += site.points;
     CHECK(taken > 0.9 * all);
   }
@@ -66,7 +66,7 @@ TEST_CASE("clusters of few points are not kept, and what grew is awake") {
     const Clustering c =
         grow_clusters(s.grid, s.neighbors, s.scale, s.local, {}, {.min_points = least});
     CHECK(c.clusters.size() >= 6);
-    for (const Cluster& k : c.clusters) CHECK(k.moments.n >= least);
+    for (const rival::Cluster& k : c.clusters) CHECK(k.moments.n >= least);
   }
   Clustering asleep;
   asleep.awake.assign(s.grid.sites.size(), 0);

@@ -39,12 +39,12 @@ std::string compress(const std::string& bytes) {
   return result + packed.substr(0, size);
 }
 
-PointCloud read(const TempFolder& folder, const std::string& bytes) {
+PointCloud read_pcd(const TempFolder& folder, const std::string& bytes) {
   return read_scan({write_file(folder / "scan.pcd", bytes)});
 }
 
-std::string error_in(const TempFolder& folder, const std::string& bytes) {
-  return error_of(Cause::bad_input, [&] { read(folder, bytes); });
+std::string pcd_error(const TempFolder& folder, const std::string& bytes) {
+  return error_of(Cause::bad_input, [&] { read_pcd(folder, bytes); });
 }
 
 const std::string kXyz = header("x y z", "4 4 4", "F F F", "1 1 1", 2, 1, "binary");
@@ -69,7 +69,7 @@ TEST_CASE("PCD: ascii, binary and binary_compressed hold the same points and col
   for (const std::string& bytes :
        {start("ascii") + "1.5 -2 3 16711938 0.25 0.5\n2.5 -2 3 261892 0.25 0.5\n",
         start("binary") + rows, start("binary_compressed") + compress(columns)}) {
-    const PointCloud cloud = read(folder, bytes);
+    const PointCloud cloud = read_pcd(folder, bytes);
     REQUIRE(cloud.points.size() == 2);
     CHECK(cloud.points[0] == Vec3f(1.5f, -2, 3));
     CHECK(cloud.points[1] == Vec3f(2.5f, -2, 3));
@@ -90,7 +90,7 @@ TEST_CASE("PCD: a colour packed into a float, as number or text, is unpacked") {
   for (const std::string& bytes :
        {header("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", 1, 1, "binary") + rows,
         header("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", 1, 1, "ascii") + text})
-    CHECK(read(folder, bytes).colors[0] == Color{0x10, 0x20, 0x30});
+    CHECK(read_pcd(folder, bytes).colors[0] == Color{0x10, 0x20, 0x30});
 }
 
 TEST_CASE("PCD: normals and double coordinates are read") {
@@ -98,17 +98,19 @@ TEST_CASE("PCD: normals and double coordinates are read") {
   std::string rows;
   for (double v : {1.0, 2.0, 3.0}) put(rows, v);
   for (float v : {0.f, 0.f, 1.f}) put(rows, v);
-  const PointCloud cloud = read(folder, header("x y z normal_x normal_y normal_z", "8 8 8 4 4 4",
-                                               "F F F F F F", "1 1 1 1 1 1", 1, 1, "binary") +
-                                            rows);
+  const PointCloud cloud =
+      read_pcd(folder, header("x y z normal_x normal_y normal_z", "8 8 8 4 4 4", "F F F F F F",
+                              "1 1 1 1 1 1", 1, 1, "binary") +
+                           rows);
   CHECK(cloud.points[0] == Vec3f(1, 2, 3));
   CHECK(cloud.normals[0] == Vec3f(0, 0, 1));
 }
 
 TEST_CASE("PCD: points that are not finite are left out and remembered") {
   const TempFolder folder;
-  const PointCloud cloud = read(folder, header("x y z", "4 4 4", "F F F", "1 1 1", 4, 1, "ascii") +
-                                            "nan nan nan\n1 2 3\n4 inf 6\n7 8 9\n");
+  const PointCloud cloud =
+      read_pcd(folder, header("x y z", "4 4 4", "F F F", "1 1 1", 4, 1, "ascii") +
+                           "nan nan nan\n1 2 3\n4 inf 6\n7 8 9\n");
   CHECK(cloud.points.size() == 2);
   CHECK(cloud.skipped == std::vector<std::size_t>{0, 2});
   CHECK(cloud.input_size() == 4);
@@ -120,7 +122,7 @@ TEST_CASE("PCD: VIEWPOINT counts where it says something") {
     std::string text =
         header("x y z", "4 4 4", "F F F", "1 1 1", width, height, "ascii", viewpoint);
     for (int i = 0; i < width * height; ++i) text += "1 2 3\n";
-    return read(folder, text).viewpoints;
+    return read_pcd(folder, text).viewpoints;
   };
   CHECK(viewpoints(4, 1, "0 0 0 1 0 0 0").empty());
   CHECK(viewpoints(4, 1, "1 2 3 1 0 0 0") == std::vector<Vec3>{{1, 2, 3}});
@@ -144,34 +146,34 @@ TEST_CASE(
       laser += std::to_string(z * std::cos(azimuth)) + " " + std::to_string(z * std::sin(azimuth)) +
                " " + std::to_string(z * std::tan(elevation)) + "\n";
     }
-  CHECK(read(folder, camera).camera_frame);
-  CHECK_FALSE(read(folder, laser).camera_frame);
+  CHECK(read_pcd(folder, camera).camera_frame);
+  CHECK_FALSE(read_pcd(folder, laser).camera_frame);
 }
 
 TEST_CASE("PCD: promises that the file does not keep are refused") {
   const TempFolder folder;
   std::string two = kXyz;
   for (int i = 0; i < 6; ++i) put(two, 1.f);
-  CHECK(read(folder, two).points.size() == 2);
-  CHECK(contains(error_in(folder, two.substr(0, two.size() - 1)), "room for 1"));
-  CHECK(contains(error_in(folder, kXyz.substr(0, 60)), "header"));
+  CHECK(read_pcd(folder, two).points.size() == 2);
+  CHECK(contains(pcd_error(folder, two.substr(0, two.size() - 1)), "room for 1"));
+  CHECK(contains(pcd_error(folder, kXyz.substr(0, 60)), "header"));
   std::string huge = kXyz;
   huge.replace(huge.find("POINTS 2"), 8, "POINTS 1000000000000");
-  CHECK(contains(error_in(folder, huge), "1000000000000"));
+  CHECK(contains(pcd_error(folder, huge), "1000000000000"));
   std::string columns;
   for (int i = 0; i < 6; ++i) put(columns, 1.f);
   const std::string packed =
       header("x y z", "4 4 4", "F F F", "1 1 1", 2, 1, "binary_compressed") + compress(columns);
-  CHECK(read(folder, packed).points.size() == 2);
-  CHECK(contains(error_in(folder, packed.substr(0, packed.size() - 2)), "compressed"));
+  CHECK(read_pcd(folder, packed).points.size() == 2);
+  CHECK(contains(pcd_error(folder, packed.substr(0, packed.size() - 2)), "compressed"));
   std::string damaged = packed;
   damaged[packed.find("binary_compressed\n") + 18 + 8] =
       '\x3f';  // a run of literals longer than the data
-  CHECK(contains(error_in(folder, damaged), "damaged"));
+  CHECK(contains(pcd_error(folder, damaged), "damaged"));
   std::string bomb = packed;
   const std::uint32_t claimed = 4000000000u;
   std::memcpy(bomb.data() + packed.find("binary_compressed\n") + 18 + 4, &claimed, 4);
-  CHECK(contains(error_in(folder, bomb), "cannot hold"));
+  CHECK(contains(pcd_error(folder, bomb), "cannot hold"));
 }
 
 TEST_CASE("PCD: errors in the header name the line and the word") {
@@ -179,7 +181,7 @@ TEST_CASE("PCD: errors in the header name the line and the word") {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = kXyz + std::string(24, '\0');
     text.replace(text.find(from), from.size(), to);
-    return error_in(folder, text);
+    return pcd_error(folder, text);
   };
   CHECK(contains(with("SIZE 4 4 4", "SIZE 4 four 4"), "'four'"));
   CHECK(contains(with("TYPE F F F", "TYPE F F"), "types"));

@@ -14,9 +14,9 @@ using namespace scanworld::thesis;
 namespace {
 
 // Which of the six faces of a room small clusters lie on.
-std::set<int> faces_found(const Vec3& size, const std::vector<Cluster>& clusters) {
+std::set<int> faces_found(const Vec3& size, const std::vector<thesis::Cluster>& clusters) {
   std::set<int> faces;
-  for (const Cluster& c : clusters)
+  for (const thesis::Cluster& c : clusters)
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(c.fit.centroid[axis]) < 0.02) faces.insert(axis);
       if (std::abs(c.fit.centroid[axis] - size[axis]) < 0.02) faces.insert(3 + axis);
@@ -29,11 +29,11 @@ std::set<int> faces_found(const Vec3& size, const std::vector<Cluster>& clusters
 TEST_CASE("small clusters hold enough points, all in their plane, none in two clusters") {
   const FilteredPoints filtered = filter_points(room_points({5, 4, 2.7}, 0.03, 0.005));
   const PlacingOptions options;
-  const std::vector<Cluster> clusters =
+  const std::vector<thesis::Cluster> clusters =
       place_clusters(KdTree(filtered.points), filtered.delta, options);
   CHECK(clusters.size() > 100);
   std::set<int> taken;
-  for (const Cluster& c : clusters) {
+  for (const thesis::Cluster& c : clusters) {
     CHECK(c.members.size() >= static_cast<std::size_t>(options.min_points));
     for (int p : c.members) {
       CHECK(taken.insert(p).second);

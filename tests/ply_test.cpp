@@ -48,12 +48,12 @@ std::string binary_scan(bool big_endian, const char* type) {
   return bytes;
 }
 
-PointCloud read(const TempFolder& folder, const std::string& bytes) {
+PointCloud read_ply(const TempFolder& folder, const std::string& bytes) {
   return read_scan({write_file(folder / "scan.ply", bytes)});
 }
 
-std::string error_in(const TempFolder& folder, const std::string& bytes) {
-  return error_of(Cause::bad_input, [&] { read(folder, bytes); });
+std::string ply_error(const TempFolder& folder, const std::string& bytes) {
+  return error_of(Cause::bad_input, [&] { read_ply(folder, bytes); });
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ TEST_CASE("PLY: both byte orders, float and double, are read past other properti
   for (bool big_endian : {false, true})
     for (const std::string& bytes :
          {binary_scan<float>(big_endian, "float"), binary_scan<double>(big_endian, "double")}) {
-      const PointCloud cloud = read(folder, bytes);
+      const PointCloud cloud = read_ply(folder, bytes);
       REQUIRE(cloud.points.size() == 3);
       for (int i = 0; i < 3; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
@@ -79,7 +79,7 @@ TEST_CASE("PLY: both byte orders, float and double, are read past other properti
 
 TEST_CASE("PLY: ascii is read with normals, colours, other columns and elements before and after") {
   const TempFolder folder;
-  const PointCloud cloud = read(
+  const PointCloud cloud = read_ply(
       folder,
       header(
           "ascii",
@@ -98,10 +98,10 @@ TEST_CASE("PLY: ascii is read with normals, colours, other columns and elements 
 
 TEST_CASE("PLY: Windows line ends are understood") {
   const TempFolder folder;
-  const PointCloud cloud =
-      read(folder,
-           "ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty float x\r\nproperty float y\r\n"
-           "property float z\r\nend_header\r\n1 2 3\r\n");
+  const PointCloud cloud = read_ply(
+      folder,
+      "ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty float x\r\nproperty float y\r\n"
+      "property float z\r\nend_header\r\n1 2 3\r\n");
   CHECK(cloud.points[0] == Vec3f(1, 2, 3));
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("PLY: colours of 16 bits and as shares of one become 8 bits") {
   for (float v : {1.f, 2.f, 3.f}) put(bytes, v, false);
   put(bytes, std::uint16_t{65535}, false), put(bytes, 0.5f, false),
       put(bytes, std::uint16_t{257}, false);
-  CHECK(read(folder, bytes).colors[0] == Color{255, 128, 1});
+  CHECK(read_ply(folder, bytes).colors[0] == Color{255, 128, 1});
 }
 
 TEST_CASE("PLY: lists before the vertices are passed over") {
@@ -129,7 +129,7 @@ TEST_CASE("PLY: lists before the vertices are passed over") {
     put(bytes, std::uint8_t{9}, false);
   }
   for (float v : {1.f, 2.f, 3.f}) put(bytes, v, false);
-  CHECK(read(folder, bytes).points[0] == Vec3f(1, 2, 3));
+  CHECK(read_ply(folder, bytes).points[0] == Vec3f(1, 2, 3));
 }
 
 TEST_CASE(
@@ -138,10 +138,10 @@ TEST_CASE(
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   for (const char* format : {"ascii", "binary_little_endian"}) {
     const std::string message =
-        error_in(folder, header(format, "element vertex 1000000000000\n" + xyz) + "1 2 3\n");
+        ply_error(folder, header(format, "element vertex 1000000000000\n" + xyz) + "1 2 3\n");
     CHECK(contains(message, "1000000000000"));
     CHECK(contains(message, "scan.ply"));
-    error_in(folder, header(format, "element vertex 18446744073709551615\n" + xyz) + "1 2 3\n");
+    ply_error(folder, header(format, "element vertex 18446744073709551615\n" + xyz) + "1 2 3\n");
   }
 }
 
@@ -153,8 +153,8 @@ TEST_CASE(
   const std::size_t body = whole.find("end_header\n") + 11;
   for (std::size_t length :
        {std::size_t{1}, std::size_t{30}, body - 5, body + 1, body + 20, whole.size() - 1})
-    CHECK(contains(error_in(folder, whole.substr(0, length)), "scan.ply"));
-  const std::string message = error_in(
+    CHECK(contains(ply_error(folder, whole.substr(0, length)), "scan.ply"));
+  const std::string message = ply_error(
       folder,
       header("ascii", "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n") +
           "1 2 3.00000000000000\n4 5 6.00000000000000\n");
@@ -164,30 +164,30 @@ TEST_CASE(
 
 TEST_CASE("PLY: errors in the header name the line and the word") {
   const TempFolder folder;
-  CHECK(contains(error_in(folder, "plx\n"), ":1:"));
-  CHECK(contains(error_in(folder, "ply\nformat weird 1.0\n"), "'weird'"));
-  CHECK(contains(error_in(folder, header("ascii", "element vertex many\n")), "'many'"));
-  CHECK(
-      contains(error_in(folder, header("ascii", "element vertex 1\nproperty quux x\n")), "'quux'"));
-  CHECK(contains(error_in(folder, header("ascii", "property float x\n")),
+  CHECK(contains(ply_error(folder, "plx\n"), ":1:"));
+  CHECK(contains(ply_error(folder, "ply\nformat weird 1.0\n"), "'weird'"));
+  CHECK(contains(ply_error(folder, header("ascii", "element vertex many\n")), "'many'"));
+  CHECK(contains(ply_error(folder, header("ascii", "element vertex 1\nproperty quux x\n")),
+                 "'quux'"));
+  CHECK(contains(ply_error(folder, header("ascii", "property float x\n")),
                  "before the first element"));
   CHECK(contains(
-      error_in(folder,
-               header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 2\n"),
+      ply_error(folder, header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") +
+                            "1 2\n"),
       "'z'"));
-  CHECK(contains(error_in(folder, header("ascii", "element face 1\nproperty float x\n") + "1\n"),
+  CHECK(contains(ply_error(folder, header("ascii", "element face 1\nproperty float x\n") + "1\n"),
                  "vertex"));
-  CHECK(contains(error_in(folder, "ply\nelement vertex 0\nproperty float x\nend_header\n"),
+  CHECK(contains(ply_error(folder, "ply\nelement vertex 0\nproperty float x\nend_header\n"),
                  "format"));
   CHECK(contains(
-      error_in(folder,
-               header("ascii", "element vertex 1\nproperty list uchar float x\n") + "1 2\n"),
+      ply_error(folder,
+                header("ascii", "element vertex 1\nproperty list uchar float x\n") + "1 2\n"),
       "list"));
 }
 
 TEST_CASE("PLY: a word among the numbers is named with its line") {
   const TempFolder folder;
-  const std::string message = error_in(
+  const std::string message = ply_error(
       folder,
       header("ascii", "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n") +
           "1 2 3\n4 five 6\n");

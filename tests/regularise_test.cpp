@@ -13,11 +13,11 @@ namespace {
 const Scale kScale{.noise = kNoise, .spacing = 0.03, .voxel = 0.05};
 
 // A cluster of points of a rectangle from `corner` along a and b.
-Cluster rectangle(const Vec3& corner, const Vec3& a, const Vec3& b, Random& random,
-                  double spacing = 0.03) {
+rival::Cluster rectangle(const Vec3& corner, const Vec3& a, const Vec3& b, Random& random,
+                         double spacing = 0.03) {
   PointCloud cloud;
   add_rectangle(cloud, corner, a, b, spacing, kNoise, random);
-  Cluster cluster;
+  rival::Cluster cluster;
   for (const Vec3f& p : cloud.points) cluster.moments += Vec3(p.cast<double>());
   cluster.fit = fit(cluster.moments);
   return cluster;
@@ -25,20 +25,21 @@ Cluster rectangle(const Vec3& corner, const Vec3& a, const Vec3& b, Random& rand
 
 const Vec3 kX = 4 * Vec3::UnitX(), kY = 3 * Vec3::UnitY(), kZ = 2.5 * Vec3::UnitZ();
 
-std::vector<Cluster> turned(const std::vector<Cluster>& clusters,
-                            const RegulariseOptions& options = {}) {
+std::vector<rival::Cluster> turned(const std::vector<rival::Cluster>& clusters,
+                                   const RegulariseOptions& options = {}) {
   return regularise(kScale, {.clusters = clusters}, options).clusters;
 }
 
-double cosine(const Cluster& a, const Cluster& b) {
+double cosine(const rival::Cluster& a, const rival::Cluster& b) {
   return std::abs(a.fit.plane.normal.dot(b.fit.plane.normal));
 }
 
 // Every plane is as near to its points as chance would have it, and faces where it did.
-void check_near(const std::vector<Cluster>& before, const std::vector<Cluster>& after) {
+void check_near(const std::vector<rival::Cluster>& before,
+                const std::vector<rival::Cluster>& after) {
   REQUIRE(after.size() == before.size());
   for (std::size_t k = 0; k < after.size(); ++k) {
-    const Cluster &a = before[k], &b = after[k];
+    const rival::Cluster &a = before[k], &b = after[k];
     CHECK(b.moments.n == a.moments.n);
     CHECK(b.fit.centroid == a.fit.centroid);
     CHECK(b.fit.plane.normal.norm() == doctest::Approx(1).scale(0).epsilon(1e-12));
@@ -55,11 +56,11 @@ TEST_CASE("the faces of a room become parallel and square") {
   std::size_t exact_pairs = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    const std::vector<Cluster> before = {
+    const std::vector<rival::Cluster> before = {
         rectangle(Vec3::Zero(), kX, kY, random), rectangle(kZ, kX, kY, random),
         rectangle(Vec3::Zero(), kX, kZ, random), rectangle(kY, kX, kZ, random),
         rectangle(Vec3::Zero(), kY, kZ, random), rectangle(kX, kY, kZ, random)};
-    const std::vector<Cluster> after = turned(before);
+    const std::vector<rival::Cluster> after = turned(before);
     check_near(before, after);
     std::size_t square = 0;
     for (std::size_t i = 0; i < 6; ++i)
@@ -77,9 +78,9 @@ TEST_CASE("a wall that its points tell is askew stays so") {
   Random random(1);
   for (double angle : {0.01, 0.03, 0.3}) {
     const Vec3 askew = Eigen::AngleAxisd(angle, Vec3::UnitX()) * kY;
-    const std::vector<Cluster> before = {rectangle(Vec3::Zero(), kX, kY, random),
-                                         rectangle(kZ, kX, askew, random)};
-    const std::vector<Cluster> after = turned(before);
+    const std::vector<rival::Cluster> before = {rectangle(Vec3::Zero(), kX, kY, random),
+                                                rectangle(kZ, kX, askew, random)};
+    const std::vector<rival::Cluster> after = turned(before);
     check_near(before, after);
     CHECK(std::acos(cosine(after[0], after[1])) == doctest::Approx(angle).scale(0).epsilon(0.1));
   }
@@ -89,10 +90,10 @@ TEST_CASE("pieces of one plane come into one, those on another level do not") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Random random(seed);
     const Vec3 right = 5 * Vec3::UnitX(), step(10, 0, 0.005);
-    const std::vector<Cluster> before = {rectangle(Vec3::Zero(), kX, kY, random),
-                                         rectangle(right, kX, kY, random),
-                                         rectangle(step, kX, kY, random)};
-    const std::vector<Cluster> after = turned(before);
+    const std::vector<rival::Cluster> before = {rectangle(Vec3::Zero(), kX, kY, random),
+                                                rectangle(right, kX, kY, random),
+                                                rectangle(step, kX, kY, random)};
+    const std::vector<rival::Cluster> after = turned(before);
     check_near(before, after);
     const auto apart = [&](std::size_t i, std::size_t k) {
       return std::abs(after[i].fit.plane.signed_distance(after[k].fit.plane.project(kX)));
@@ -111,7 +112,7 @@ TEST_CASE("labels stay, nothing is nothing, and no angle turns no plane") {
   CHECK(regularise(kScale, {}).clusters.empty());
   CHECK(cosine(c.clusters[0], c.clusters[1]) < 1 - 1e-12);
   CHECK(cosine(turned(c.clusters)[0], turned(c.clusters)[1]) > 1 - 1e-12);
-  const std::vector<Cluster> same = turned(c.clusters, {.max_angle = 0});
+  const std::vector<rival::Cluster> same = turned(c.clusters, {.max_angle = 0});
   for (std::size_t k = 0; k < 2; ++k) {
     CHECK((same[k].fit.plane.normal - c.clusters[k].fit.plane.normal).norm() < 1e-6);
     CHECK(std::abs(same[k].fit.plane.offset - c.clusters[k].fit.plane.offset) < 1e-6);

@@ -98,7 +98,7 @@ TEST_CASE(
       CHECK(s.grow().clusters.size() >= 6);
       std::vector<double> points;
       double all = 0;
-      for (const Cluster& k : s.settle().clusters)
+      for (const rival::Cluster& k : s.settle().clusters)
         points.push_back(k.moments.n), all += points.back();
       std::sort(points.rbegin(), points.rend());
       REQUIRE(points.size() >= 6);

@@ -30,7 +30,7 @@ std::int32_t right_label(const Vec3& p) { return p.x() < p.z() ? 1 : 0; }
 Clustering start_with(const Stages& s, const std::function<std::int32_t(const Vec3&)>& label_of) {
   Clustering c = label_sites(
       s.grid, [](const Vec3& p) { return std::min(p.x(), p.z()) < 0.03 ? right_label(p) : kNone; });
-  for (Cluster& k : c.clusters) k.moments = {};
+  for (rival::Cluster& k : c.clusters) k.moments = {};
   for (std::size_t i = 0; i < c.label.size(); ++i) {
     c.label[i] = label_of(s.grid.sites[i].position());
     if (c.label[i] != kNone)

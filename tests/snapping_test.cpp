@@ -18,7 +18,7 @@ struct SnappedPlace {
   FilteredPoints filtered;
   KdTree tree;
   std::vector<thesis::Cluster> walls;
-  std::vector<Polygon> borders;
+  std::vector<thesis::Polygon> borders;
 
   explicit SnappedPlace(const PointCloud& cloud)
       : filtered(filter_points(cloud)), tree(filtered.points) {
@@ -43,7 +43,7 @@ TEST_CASE(
   const auto polygons = reduce_vertices(
       snap_vertices(room.borders, room.walls, room.tree, room.filtered.delta), room.filtered.delta);
   std::vector<Vec3> corners;
-  for (const Polygon& p : polygons) {
+  for (const thesis::Polygon& p : polygons) {
     CHECK(p.size() == 4);
     for (const Vec3& v : p) {
       CHECK(is_corner(v, size));
@@ -98,8 +98,8 @@ TEST_CASE("planes that are nearly parallel have no corner that anything snaps to
   add_rectangle(cloud, {3, 0, 0}, {3, 0, 0.45}, {0, 3, 0}, 0.02, 0.002, random);  // 9 degrees
   const SnappedPlace room(cloud);
   REQUIRE(room.walls.size() == 2);
-  const auto sorted = [](std::vector<Polygon> polygons) {
-    for (Polygon& p : polygons)
+  const auto sorted = [](std::vector<thesis::Polygon> polygons) {
+    for (thesis::Polygon& p : polygons)
       std::sort(p.begin(), p.end(), [](const Vec3& a, const Vec3& b) {
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
       });
@@ -113,10 +113,10 @@ TEST_CASE("planes that are nearly parallel have no corner that anything snaps to
 }
 
 TEST_CASE("reduction drops vertices on a line and keeps three at least") {
-  const Polygon square = {{0, 0, 0},   {1, 0.001, 0}, {2, 0, 0}, {2, 2, 0},
-                          {1, 2.3, 0}, {0, 2, 0},     {0, 1, 0}};
+  const thesis::Polygon square = {{0, 0, 0},   {1, 0.001, 0}, {2, 0, 0}, {2, 2, 0},
+                                  {1, 2.3, 0}, {0, 2, 0},     {0, 1, 0}};
   CHECK(reduce_vertices({square}, 0.1, {.max_distance = 0.5})[0] ==
-        Polygon{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2.3, 0}, {0, 2, 0}});
+        thesis::Polygon{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2.3, 0}, {0, 2, 0}});
   CHECK(reduce_vertices({square}, 0.1, {.max_distance = 5})[0].size() == 4);
   CHECK(reduce_vertices({square}, 0.1, {.max_distance = 1e6})[0].size() == 3);
   CHECK(reduce_vertices({{}}, 0.1)[0].empty());

@@ -16,7 +16,7 @@ namespace {
 
 struct Found {
   FilteredPoints filtered;
-  std::vector<Cluster> walls;
+  std::vector<thesis::Cluster> walls;
 };
 
 Found find_walls(const PointCloud& cloud, const SpreadingOptions& options = {},

@@ -15,7 +15,7 @@ namespace scanworld::rival {
 namespace {
 
 constexpr double kNever = 1e9;     // a price
-constexpr double kParallel = 0.9;  // cosine between the normals of layers
+constexpr double kLayers = 0.9;    // cosine between the normals of layers
 constexpr double kMostOfIt = 0.5;  // share of a layer that touches the cluster it belongs to
 
 // What speaks for joining two clusters: the lower the price, the more; 1 or more is too much.
@@ -32,7 +32,7 @@ struct Bid {
 double layer_price(const Cluster& larger, const Contact& there, const Cluster& smaller,
                    const Contact& here, const Scale& scale, const MergeOptions& options) {
   if (larger.moments.n < smaller.moments.n || here.moments.n < kMostOfIt * smaller.moments.n ||
-      std::abs(larger.fit.plane.normal.dot(smaller.fit.plane.normal)) < kParallel)
+      std::abs(larger.fit.plane.normal.dot(smaller.fit.plane.normal)) < kLayers)
     return kNever;
   return (there.moments + smaller.moments).mean_square(larger.fit.plane) /
          square_limit(larger, smaller, scale, options.max_rms);

@@ -28,11 +28,14 @@ class GapWeigher {
   // The evidence of a patch's cells.
   std::vector<float> weigh(const Patch& patch, const std::vector<CutLine>& lines) const {
     const Raster enclosed = enclosed_by(rim_of(patch, lines));
+    const Raster through = seen_through(patch, around_, options_.through);
     const Raster hidden = find_hidden(patch, enclosed), ground = find_ground(patch);
     std::vector<float> evidence = patch.evidence;
     for (std::size_t i = 0; i < evidence.size(); ++i) {
       if (patch.hit.bits[i]) continue;
-      if (hidden.bits[i])
+      if (through.bits[i])
+        evidence[i] = -1;
+      else if (hidden.bits[i])
         evidence[i] = static_cast<float>(options_.hidden_evidence);
       else if (ground.bits[i] && enclosed.bits[i])
         evidence[i] *= static_cast<float>(options_.ground_price);

@@ -7,7 +7,7 @@
 namespace scanworld::surface {
 
 Surroundings surroundings_of(std::vector<Vec3f> points, std::vector<std::int32_t> planes) {
-  Surroundings s{std::move(points), std::move(planes), {}};
+  Surroundings s{.points = std::move(points), .planes = std::move(planes)};
   for (std::size_t i = 0; i < s.points.size(); ++i) {
     if (i % Surroundings::kRun == 0) s.boxes.emplace_back();
     s.boxes.back().extend(s.points[i]);

@@ -14,6 +14,8 @@ struct Surroundings {
   std::vector<Vec3f> points;
   std::vector<std::int32_t> planes;        // of each point, or -1
   std::vector<Eigen::AlignedBox3f> boxes;  // of each kRun points
+  std::vector<Vec3> viewpoints;            // where they are known ...
+  std::vector<std::int32_t> viewers;       // ... from which of them each point was seen, or -1
 
   static constexpr std::size_t kRun = 256;
 };

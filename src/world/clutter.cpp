@@ -58,13 +58,13 @@ std::vector<Entry> sort_points(const PointCloud& cloud, const std::vector<std::i
   return entries;
 }
 
-struct Cell {
+struct ClutterCell {
   std::uint64_t key;
   std::size_t begin, end;  // its entries
 };
 
-std::vector<Cell> cells_of(const std::vector<Entry>& entries) {
-  std::vector<Cell> cells;
+std::vector<ClutterCell> cells_of(const std::vector<Entry>& entries) {
+  std::vector<ClutterCell> cells;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (cells.empty() || cells.back().key != entries[i].cell())
       cells.push_back({entries[i].cell(), i, i});
@@ -75,7 +75,7 @@ std::vector<Cell> cells_of(const std::vector<Entry>& entries) {
 
 // Calls body(i, j) for all neighbours among the 26 of each cell, once for each two.
 template <typename Body>
-void for_each_pair(const std::vector<Cell>& cells, Body body) {
+void for_each_pair(const std::vector<ClutterCell>& cells, Body body) {
   const std::uint64_t y = packed(0, 1, 0), z = packed(0, 0, 1);
   for (std::uint64_t step : {std::uint64_t{1}, y - 1, y, y + 1, z - y - 1, z - y, z - y + 1, z - 1,
                              z, z + 1, z + y - 1, z + y, z + y + 1})
@@ -86,7 +86,7 @@ void for_each_pair(const std::vector<Cell>& cells, Body body) {
 }
 
 // How many points are in each cell and the 26 around it.
-std::vector<double> count_around(const std::vector<Cell>& cells) {
+std::vector<double> count_around(const std::vector<ClutterCell>& cells) {
   std::vector<double> count(cells.size());
   const auto own = [&](std::size_t i) {
     return static_cast<double>(cells[i].end - cells[i].begin);
@@ -99,7 +99,7 @@ std::vector<double> count_around(const std::vector<Cell>& cells) {
 
 // Keeps the entries that keep(cell) tells, and with them the cells.
 template <typename Keep>
-void keep_cells(std::vector<Entry>& entries, std::vector<Cell>& cells, Keep keep) {
+void keep_cells(std::vector<Entry>& entries, std::vector<ClutterCell>& cells, Keep keep) {
   std::vector<Entry> kept;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (keep(i))
@@ -151,7 +151,7 @@ std::vector<FlatSurface> flatten(const World& world, const ClutterScale& scale,
 
 // Drops the points that a surface explains.
 void drop_explained(const PointCloud& cloud, const std::vector<FlatSurface>& surfaces,
-                    std::vector<Entry>& entries, std::vector<Cell>& cells) {
+                    std::vector<Entry>& entries, std::vector<ClutterCell>& cells) {
   constexpr std::size_t kRun = 64;  // cells that lie close together, mostly
   std::vector<char> explained(entries.size());
   parallel_for(part_count(cells.size(), kRun), [&](std::size_t part) {
@@ -176,7 +176,7 @@ void drop_explained(const PointCloud& cloud, const std::vector<FlatSurface>& sur
 }
 
 // For each cell the lowest of those that it is connected to.
-std::vector<std::uint32_t> connect(const std::vector<Cell>& cells) {
+std::vector<std::uint32_t> connect(const std::vector<ClutterCell>& cells) {
   DisjointSets sets(cells.size());
   for_each_pair(cells, [&](std::size_t i, std::size_t j) { sets.unite(i, j); });
   std::vector<std::uint32_t> root(cells.size());
@@ -196,7 +196,7 @@ std::vector<std::vector<std::size_t>> group(const std::vector<std::uint32_t>& ro
 
 // Where a thing has far fewer points than in its middle, it is a curtain of points between its edge
 // and what is behind.
-void drop_curtains(std::vector<Entry>& entries, std::vector<Cell>& cells, double share) {
+void drop_curtains(std::vector<Entry>& entries, std::vector<ClutterCell>& cells, double share) {
   const std::vector<double> count = count_around(cells);
   std::vector<char> keep(cells.size());
   for (const auto& thing : group(connect(cells))) {
@@ -210,7 +210,7 @@ void drop_curtains(std::vector<Entry>& entries, std::vector<Cell>& cells, double
 }
 
 // The means of the points in each cube, in whole micrometres so that their order does not matter.
-void thin(const PointCloud& cloud, const std::vector<Entry>& entries, const Cell& cell,
+void thin(const PointCloud& cloud, const std::vector<Entry>& entries, const ClutterCell& cell,
           std::vector<Vec3>& points) {
   for (std::size_t i = cell.begin; i < cell.end;) {
     std::array<std::int64_t, 3> sum{};
@@ -235,7 +235,7 @@ Clutter find_clutter(const PointCloud& cloud, const std::vector<std::int32_t>& l
   clutter.cell = std::max({options.min_cell, options.cell_per_spacing * scale.spacing,
                            options.cell_per_noise * scale.noise});
   std::vector<Entry> entries = sort_points(cloud, labels, clutter.cell);
-  std::vector<Cell> cells = cells_of(entries);
+  std::vector<ClutterCell> cells = cells_of(entries);
   // A surface goes through nine of the cells around one. Where a scan is dense on the whole, it may
   // not be in all places.
   const double ratio = std::min(3.0, clutter.cell / std::max(scale.spacing, 1e-6));

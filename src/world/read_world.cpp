@@ -66,6 +66,10 @@ class Node {
     if (!json_.is_string()) fail("should be a text");
     return json_.get<std::string>();
   }
+  bool boolean() const {
+    if (!json_.is_boolean()) fail("should be true or false");
+    return json_.get<bool>();
+  }
   Vec3 vector() const {
     if (size() != 3) fail("should be a list of 3 numbers");
     return {item(0).number(), item(1).number(), item(2).number()};
@@ -144,7 +148,7 @@ Surface read_surface(const Node& n) {
 }
 
 Opening read_opening(const Node& n) {
-  n.expect_keys({"id", "kind", "surface", "loop", "width", "height", "evidence"});
+  n.expect_keys({"id", "kind", "surface", "loop", "width", "height", "evidence", "?glass"});
   return {
       .id = n.at("id").integer(),
       .kind = n.at("kind").one_of({OpeningKind::door, OpeningKind::window, OpeningKind::passage}),
@@ -152,7 +156,8 @@ Opening read_opening(const Node& n) {
       .loop = n.at("loop").integers(),
       .width = n.at("width").number(),
       .height = n.at("height").number(),
-      .evidence = n.at("evidence").text()};
+      .evidence = n.at("evidence").text(),
+      .glass = n.has("glass") && n.at("glass").boolean()};
 }
 
 OrientedBox read_box(const Node& n) {

@@ -42,17 +42,17 @@ bool crosses(const Rectangle& box, const Vec2& a, const Vec2& b) {
   return from < to;
 }
 
-enum class Place { outside, across, inside };
+enum class GridPlace { outside, across, inside };
 
 // Where a box is, its middle telling for one that no edge crosses.
-Place place_of(const Rectangle& box, const std::vector<geos::Rings>& polygons) {
+GridPlace place_of(const Rectangle& box, const std::vector<geos::Rings>& polygons) {
   for (const geos::Rings& rings : polygons) {
     for (const auto& ring : rings)
       for (std::size_t i = 0; i < ring.size(); ++i)
-        if (crosses(box, ring[i], ring[(i + 1) % ring.size()])) return Place::across;
-    if (is_inside(rings, box.center())) return Place::inside;
+        if (crosses(box, ring[i], ring[(i + 1) % ring.size()])) return GridPlace::across;
+    if (is_inside(rings, box.center())) return GridPlace::inside;
   }
-  return Place::outside;
+  return GridPlace::outside;
 }
 
 // The plane cut into cells by the lines of all edges.
@@ -89,26 +89,26 @@ Grid make_grid(const geos::Rings& needed, const std::vector<geos::Rings>& allowe
         const double margin = std::min(options.tolerance, 0.45 * cell.sizes()[k]);
         cell.min()[k] += margin, cell.max()[k] -= margin;
       }
-      const bool free = place_of(cell, allowed) == Place::inside;
+      const bool free = place_of(cell, allowed) == GridPlace::inside;
       grid.allowed.push_back(free);
-      grid.must.push_back(free && !narrow && place_of(cell, {needed}) != Place::outside &&
-                          place_of(cell, done) != Place::inside);
+      grid.must.push_back(free && !narrow && place_of(cell, {needed}) != GridPlace::outside &&
+                          place_of(cell, done) != GridPlace::inside);
     }
   return grid;
 }
 
 // A rectangle of cells, and which of those that need cover it has.
-struct Candidate {
+struct Rect {
   std::size_t left, right, bottom, top;  // lines
   std::vector<std::uint64_t> has;
   double area;
 };
 
 // All rectangles of allowed cells that cannot grow and have something to cover.
-std::vector<Candidate> candidates_of(const Grid& grid, const std::vector<std::size_t>& must,
-                                     const std::vector<std::size_t>& index) {
+std::vector<Rect> candidates_of(const Grid& grid, const std::vector<std::size_t>& must,
+                                const std::vector<std::size_t>& index) {
   const std::size_t columns = grid.columns(), rows = grid.rows();
-  std::vector<Candidate> found;
+  std::vector<Rect> found;
   for (std::size_t bottom = 0; bottom < rows; ++bottom) {
     std::vector<char> open(columns, 1);
     for (std::size_t top = bottom + 1; top <= rows; ++top) {
@@ -123,7 +123,7 @@ std::vector<Candidate> candidates_of(const Grid& grid, const std::vector<std::si
           return true;
         };
         if ((bottom > 0 && row_is_free(bottom - 1)) || (top < rows && row_is_free(top))) continue;
-        Candidate candidate{left, right, bottom, top, {}, 0};
+        Rect candidate{left, right, bottom, top, {}, 0};
         candidate.has.resize((must.size() + 63) / 64);
         candidate.area = (grid.x[right] - grid.x[left]) * (grid.y[top] - grid.y[bottom]);
         bool useful = false;
@@ -146,7 +146,7 @@ std::vector<Candidate> candidates_of(const Grid& grid, const std::vector<std::si
 // else what the greedy choice finds.
 class Choice {
  public:
-  Choice(const std::vector<Candidate>& candidates, const std::vector<double>& weight)
+  Choice(const std::vector<Rect>& candidates, const std::vector<double>& weight)
       : candidates_(candidates), weight_(weight), having_(weight.size()) {
     for (std::size_t k = 0; k < candidates.size(); ++k)
       for (std::size_t i = 0; i < weight.size(); ++i)
@@ -211,7 +211,7 @@ class Choice {
     return false;
   }
 
-  const std::vector<Candidate>& candidates_;
+  const std::vector<Rect>& candidates_;
   const std::vector<double>& weight_;
   std::vector<std::vector<std::size_t>> having_;  // of each item the candidates
   std::vector<std::size_t> chosen_;
@@ -240,9 +240,9 @@ std::vector<Rectangle> cover_with_rectangles(const geos::Rings& needed,
     }
   std::vector<Rectangle> rectangles;
   if (must.empty()) return rectangles;
-  const std::vector<Candidate> candidates = candidates_of(grid, must, index);
+  const std::vector<Rect> candidates = candidates_of(grid, must, index);
   for (std::size_t k : Choice(candidates, weight).run()) {
-    const Candidate& c = candidates[k];
+    const Rect& c = candidates[k];
     rectangles.emplace_back(Vec2(grid.x[c.left], grid.y[c.bottom]),
                             Vec2(grid.x[c.right], grid.y[c.top]));
   }

@@ -47,6 +47,7 @@ struct Opening {
   Loop loop;
   double width = 0, height = 0;  // [m] clear
   std::string evidence;          // how it is known, in words
+  bool glass = false;            // a window with a pane in it
   bool operator==(const Opening&) const = default;
 };
 

@@ -51,8 +51,11 @@ Json to_json(const Surface& s) {
 }
 
 Json to_json(const Opening& o) {
-  return {{"id", o.id},       {"kind", name_of(o.kind)}, {"surface", o.surface},  {"loop", o.loop},
-          {"width", o.width}, {"height", o.height},      {"evidence", o.evidence}};
+  Json j = {
+      {"id", o.id},       {"kind", name_of(o.kind)}, {"surface", o.surface},  {"loop", o.loop},
+      {"width", o.width}, {"height", o.height},      {"evidence", o.evidence}};
+  if (o.glass) j["glass"] = true;
+  return j;
 }
 
 Json shape_json(const OrientedBox& b) {

@@ -24,8 +24,14 @@ std::vector<Patch> LabelledScan::patches() const {
 
 std::vector<Patch> LabelledScan::weighed_patches() const {
   const std::vector<Patch> found = patches();
-  return weigh_gaps(found, lines_of(found, find_seams(found)),
-                    surroundings_of(cloud.points, labels), Vec3::UnitZ());
+  return weigh_gaps(found, lines_of(found, find_seams(found)), surroundings(), Vec3::UnitZ());
+}
+
+Surroundings LabelledScan::surroundings() const {
+  Surroundings around = surroundings_of(cloud.points, labels);
+  around.viewpoints = cloud.viewpoints;
+  around.viewers = find_viewers(around, PatchRays(patches()), cloud.viewpoints);
+  return around;
 }
 
 float evidence_at(const Patch& patch, const Vec3& p) {

@@ -22,6 +22,7 @@ struct LabelledScan {
   std::vector<surface::Patch> patches() const;
   // The same, their gaps weighed between their seams.
   std::vector<surface::Patch> weighed_patches() const;
+  surface::Surroundings surroundings() const;  // with the viewpoints
   surface::Members members() const { return surface::group_points(labels, planes.size()); }
 
  private:
