@@ -118,3 +118,20 @@ TEST_CASE("labels stay, nothing is nothing, and no angle turns no plane") {
     CHECK(std::abs(same[k].fit.plane.offset - c.clusters[k].fit.plane.offset) < 1e-6);
   }
 }
+
+TEST_CASE("a small part of a wall that is hardly off the large one is in its plane") {
+  Random random(5);
+  const rival::Cluster wall = rectangle({0, 0, 0}, kX, kZ, random);
+  for (double off : {0.002, 0.004, 0.012}) {
+    const rival::Cluster above =
+        rectangle({1, off, 2.5}, Vec3(1, 0, 0), Vec3(0, 0.001, 0.4), random);
+    const auto after = turned({wall, above});
+    check_near({wall}, {after[0]});
+    const bool is_one = std::abs(after[1].fit.plane.signed_distance(wall.fit.centroid)) < 0.001;
+    CHECK(is_one == (off < 0.01));
+  }
+  // What is far away keeps its own plane, if its points tell it well enough.
+  const rival::Cluster far = rectangle({9, 0.004, 0}, kX, kZ, random, 0.01);
+  const auto after = turned({wall, far});
+  CHECK(std::abs(after[1].fit.plane.signed_distance({11, 0.004, 1})) < 0.001);
+}

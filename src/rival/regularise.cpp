@@ -111,6 +111,49 @@ void join_offsets(std::vector<Cluster>& clusters, const Direction& direction, co
   }
 }
 
+// A box around the plane of a cluster that is about as large as it.
+Box3 box_of(const Cluster& cluster) {
+  const Vec3 half = (3 * cluster.moments.covariance().diagonal()).cwiseSqrt();
+  return {cluster.fit.centroid - half, cluster.fit.centroid + half};
+}
+
+// How far a cluster's own plane is off another one, at most, where its points are [m].
+double farthest_off(const Cluster& cluster, const Plane& plane) {
+  const Vec3& own = cluster.fit.plane.normal;
+  const Vec3 tilt = plane.normal - plane.normal.dot(own) * own;
+  return std::abs(plane.signed_distance(cluster.fit.centroid)) +
+         std::sqrt(3 * std::max(0.0, tilt.dot(cluster.moments.covariance() * tilt)));
+}
+
+// Gives clusters the plane of a larger one beside them that they are hardly off.
+void close_cracks(std::vector<Cluster>& clusters, const std::vector<std::size_t>& order,
+                  const Scale& scale, const RegulariseOptions& options) {
+  std::vector<Box3> boxes;
+  for (const Cluster& cluster : clusters) boxes.push_back(box_of(cluster));
+  std::vector<std::size_t> larger;
+  for (std::size_t k : order) {
+    Cluster& cluster = clusters[k];
+    const Plane* nearest = nullptr;
+    double least =
+        std::min(options.max_crack, options.max_step * scale.noise_at(cluster.fit.centroid));
+    for (std::size_t other : larger) {
+      const Plane& plane = clusters[other].fit.plane;
+      if (std::abs(plane.normal.dot(cluster.fit.plane.normal)) < 0.9 ||
+          !grown(boxes[other], options.max_gap).intersects(boxes[k]))
+        continue;
+      if (const double off = farthest_off(cluster, plane); off < least)
+        least = off, nearest = &plane;
+    }
+    if (nearest == nullptr) {
+      larger.push_back(k);
+      continue;
+    }
+    const bool opposed = nearest->normal.dot(cluster.fit.plane.normal) < 0;
+    cluster.fit.plane = opposed ? nearest->flipped() : *nearest;
+    cluster.fit.variance[0] = cluster.moments.mean_square(cluster.fit.plane);
+  }
+}
+
 }  // namespace
 
 Clustering regularise(const Scale& scale, Clustering c, const RegulariseOptions& options) {
@@ -131,6 +174,7 @@ Clustering regularise(const Scale& scale, Clustering c, const RegulariseOptions&
         }
     join_offsets(c.clusters, squared[d], scale, options);
   }
+  close_cracks(c.clusters, order, scale, options);
   return c;
 }
 

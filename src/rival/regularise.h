@@ -13,10 +13,14 @@ struct RegulariseOptions {
                         // freedom, is 6)
   double max_shift = 0.002;  // [m] at a plane's edge by turning it, beside its own uncertainty
   double max_offset = 3;     // [standard deviations] parallel planes nearer than this are one plane
+  double max_step = 1.5;     // [noise] a plane that is nowhere farther off a larger one ...
+  double max_crack = 0.005;  // [m] ... nor than this, and no farther away ...
+  double max_gap = 0.15;     // [m] ... than this, takes the larger one's plane
 };
 
 // Makes planes parallel, square and coplanar where their points do not object: nothing is turned
-// that chance would not have turned as far.
+// that chance would not have turned as far. And parts of one wall that are a hair's breadth off
+// each other get one plane, as corners cannot close such a crack.
 Clustering regularise(const Scale& scale, Clustering clustering,
                       const RegulariseOptions& options = {});
 
