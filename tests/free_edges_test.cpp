@@ -67,3 +67,28 @@ TEST_CASE("there are no free edges along seams, and those of a doorway are where
   CHECK(jambs >= 2);
   CHECK(lintels >= 1);
 }
+
+TEST_CASE("the corner of a doorway that looks cut off is none of its edges, that of a gable is") {
+  for (const bool is_gable : {false, true}) {
+    LabelledScan scan;
+    scan.add({0, 0, 0}, {4, 0, 0}, {0, 2, 0});
+    const int wall = scan.add({0, 0, 0}, {0, 0, 2.5}, {1.5, 0, 0});
+    scan.add({2.4, 0, 0}, {0, 0, 2.5}, {1.6, 0, 0}, wall);
+    scan.add({1.5, 0, 2}, {0, 0, 0.5}, {0.9, 0, 0}, wall);
+    // More of the wall below the lintel, in steps from one corner: down the whole height, or a bit.
+    const double step = is_gable ? 0.1 : 0.02;
+    for (int k = 0; k < 12; ++k)
+      scan.add({1.5, 0, 2 - (k + 1) * step}, {0, 0, step},
+               {(is_gable ? 0.8 : 0.3) * (1 - k / 12.0), 0, 0}, wall);
+    int slanted = 0;
+    double top = 0;
+    for (const FreeEdge& e : edges_of(scan)) {
+      const Vec3 m = (e.from + e.to) / 2;
+      if (e.patch != wall || m.x() < 1.3 || m.x() > 2.6 || m.z() > 2.3) continue;
+      slanted += std::abs(e.plane.normal.x()) < 0.97 && std::abs(e.plane.normal.z()) < 0.97;
+      top = std::max({top, e.from.z(), e.to.z()});
+    }
+    CHECK((slanted > 0) == is_gable);
+    CHECK(top < 2.05);
+  }
+}

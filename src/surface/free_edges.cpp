@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 namespace scanworld::surface {
 
@@ -87,6 +88,9 @@ void simplify(const std::vector<Vec2>& points, std::size_t first, std::size_t la
 struct EdgePiece {
   Vec2 from, to, outward;  // unit vector
   double offset = 0;       // outward . x on it
+  bool is_square = false;  // parallel or square to a seam
+
+  double length() const { return (to - from).norm(); }
 };
 
 class EdgeFinder {
@@ -154,33 +158,72 @@ class EdgeFinder {
   void add_run(const std::vector<Vec2>& run) {
     std::vector<std::size_t> ends = {0};
     simplify(run, 0, run.size() - 1, options_.tolerance * patch_.covered.cell, ends);
-    for (std::size_t k = 1; k < ends.size(); ++k) {
-      if ((run[ends[k]] - run[ends[k - 1]]).norm() < options_.min_length) continue;
-      add_piece({run.begin() + static_cast<std::ptrdiff_t>(ends[k - 1]),
-                 run.begin() + static_cast<std::ptrdiff_t>(ends[k]) + 1});
-    }
+    std::vector<EdgePiece> pieces;
+    for (std::size_t k = 1; k < ends.size(); ++k)
+      pieces.push_back(piece_of({run.begin() + static_cast<std::ptrdiff_t>(ends[k - 1]),
+                                 run.begin() + static_cast<std::ptrdiff_t>(ends[k]) + 1}));
+    pieces = with_corners(std::move(pieces), run.front() == run.back());
+    for (const EdgePiece& p : pieces)
+      if (p.length() >= options_.min_length) pieces_.push_back(p);
   }
 
-  void add_piece(const std::vector<Vec2>& points) {
+  bool is_straight(const EdgePiece& p) const {
+    return p.is_square && p.length() >= options_.min_length;
+  }
+
+  // Where the outline cuts the corner of an opening between two square pieces, these go on to it
+  // instead: between the points of a sparse scan it looks cut off.
+  std::vector<EdgePiece> with_corners(std::vector<EdgePiece> pieces, bool is_closed) const {
+    const std::size_t n = pieces.size();
+    std::vector<char> drop(n);
+    for (std::size_t a = 0; a < n; ++a) {
+      if (!is_straight(pieces[a])) continue;
+      std::size_t b = a + 1;
+      while (b < a + n && !is_straight(pieces[b % n])) ++b;
+      if (b >= a + n || (b >= n && !is_closed)) continue;
+      EdgePiece &before = pieces[a], &after = pieces[b % n];
+      if ((after.from - before.to).norm() > options_.max_chamfer ||
+          before.outward.x() * after.outward.y() - before.outward.y() * after.outward.x() > -0.99)
+        continue;
+      Eigen::Matrix2d normals;
+      normals << before.outward.transpose(), after.outward.transpose();
+      const Vec2 corner = normals.inverse() * Vec2(before.offset, after.offset);
+      if ((corner - before.to).norm() > options_.max_chamfer ||
+          (corner - after.from).norm() > options_.max_chamfer)
+        continue;
+      for (std::size_t k = a + 1; k < b; ++k) {
+        drop[k % n] = 1;
+        if (pieces[k % n].length() >= options_.min_length) before.to = after.from = corner;
+      }
+    }
+    std::vector<EdgePiece> kept;
+    for (std::size_t k = 0; k < n; ++k)
+      if (!drop[k]) kept.push_back(pieces[k]);
+    return kept;
+  }
+
+  EdgePiece piece_of(const std::vector<Vec2>& points) const {
     Vec2 mean = Vec2::Zero();
     for (const Vec2& p : points) mean += p;
     mean /= static_cast<double>(points.size());
     Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
     for (const Vec2& p : points) scatter += (p - mean) * (p - mean).transpose();
     const double angle = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
-    const double snapped = snap(angle);
-    Vec2 along(std::cos(snapped), std::sin(snapped));
+    const std::optional<double> snapped = snap(angle);
+    const double turned = snapped.value_or(angle);
+    Vec2 along(std::cos(turned), std::sin(turned));
     if (along.dot(points.back() - points.front()) < 0) along = -along;
     // The patch lies to the left.
     const Vec2 outward(along.y(), -along.x());
     const auto on_line = [&](const Vec2& p) -> Vec2 { return p + outward * outward.dot(mean - p); };
-    pieces_.push_back(
-        {on_line(points.front()), on_line(points.back()), outward, outward.dot(mean)});
+    return {on_line(points.front()), on_line(points.back()), outward, outward.dot(mean),
+            snapped.has_value()};
   }
 
-  // The nearest of the seams' angles and those square to them.
-  double snap(double angle) const {
-    double best = angle, least = options_.snap_angle;
+  // The nearest of the seams' angles and those square to them, if one is near.
+  std::optional<double> snap(double angle) const {
+    std::optional<double> best;
+    double least = options_.snap_angle;
     for (double a : angles_) {
       const double turn = std::remainder(angle - a, kPi / 2);
       if (std::abs(turn) < least) least = std::abs(turn), best = angle - turn;

@@ -14,6 +14,7 @@ struct FreeEdgeOptions {
   double tolerance = 1.2;    // [cell] an outline is straight where it is off a chord by no more
   double min_length = 0.15;  // [m] of a straight piece
   double snap_angle = 0.12;  // [rad] pieces are parallel or square to a seam if they nearly are
+  double max_chamfer = 0.5;  // [m] of a corner between two such pieces that the outline cuts off
 };
 
 // A straight piece of a patch's outline where it meets no other patch.

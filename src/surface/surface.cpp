@@ -213,6 +213,8 @@ OptionList list_options(SurfaceOptions& o) {
       {"surface.free_edges.min_length", &o.free_edges.min_length, "m", "of a straight piece", 0},
       {"surface.free_edges.snap_angle", &o.free_edges.snap_angle, "rad",
        "pieces are parallel or square to a seam if they nearly are", 0, 0.7},
+      {"surface.free_edges.max_chamfer", &o.free_edges.max_chamfer, "m",
+       "of a corner between two such pieces that the outline cuts off", 0},
       {"surface.shared_edges.max_angle", &o.shared_edges.max_angle, "rad",
        "between the planes of edges that are one", 0, 0.7},
       {"surface.shared_edges.max_offset", &o.shared_edges.max_offset, "m",
