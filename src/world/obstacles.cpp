@@ -41,14 +41,26 @@ std::vector<Candidate> enclose_thing(std::span<const Vec3> thing, double cell, c
     return fit_cylinder(part, up, noise, options.solid) || fit_box(part, up, noise, options.solid);
   };
   std::vector<Candidate> found;
-  for (const auto& part :
-       split_clutter({thing.begin(), thing.end()}, up, cell, is_simple, options.split)) {
-    Box3 box;
-    for (const Vec3& p : part) box.extend(p);
-    if (box.sizes().maxCoeff() < options.clutter.min_size) continue;
-    Candidate c{.solid = rounded(fit_solid(part, up, noise, options.solid))};
+  const auto add = [&](const Solid& solid) {
+    Candidate c{.solid = rounded(solid)};
     c.area = area_of(mesh_of(Obstacle{.shape = c.solid}, world.frame));
     found.push_back(std::move(c));
+  };
+  if (is_simple(thing)) {
+    add(fit_solid(thing, up, noise, options.solid));
+    return found;
+  }
+  const RoundParts parts = find_round_parts(thing, cell, noise, options.round);
+  for (const Ellipsoid& e : parts.found) add(ConvexHull{corners_of(e, options.solid.max_vertices)});
+  constexpr std::size_t kCrumb = 12;  // what ellipsoids leave around them
+  for (const auto& rest : parts.rest) {
+    if (!parts.found.empty() && rest.size() < kCrumb) continue;
+    for (const auto& part : split_clutter(rest, up, cell, is_simple, options.split)) {
+      Box3 box;
+      for (const Vec3& p : part) box.extend(p);
+      if (box.sizes().maxCoeff() < options.clutter.min_size) continue;
+      add(fit_solid(part, up, noise, options.solid));
+    }
   }
   return found;
 }
@@ -94,6 +106,22 @@ OptionList list_options(ObstacleOptions& o) {
       {"obstacles.clutter.min_floating_points", &o.clutter.min_floating_points, "",
        "of one that touches none", 4},
       {"obstacles.clutter.min_size", &o.clutter.min_size, "m", "the longest extent of a thing", 0},
+      {"obstacles.round.tolerance", &o.round.tolerance, "noise",
+       "points no farther from an ellipsoid lie on it", 0},
+      {"obstacles.round.min_points", &o.round.min_points, "",
+       "of a thing, one in each cube of half a cell, on an ellipsoid", 12},
+      {"obstacles.round.min_seen", &o.round.min_seen, "", "of an ellipsoid's sides, with points", 0,
+       1},
+      {"obstacles.round.max_unknown", &o.round.max_unknown, "noise",
+       "standard deviation of where an ellipsoid's unseen side is", 0},
+      {"obstacles.round.max_inside", &o.round.max_inside, "",
+       "points deep in an ellipsoid, for each on it", 0},
+      {"obstacles.round.max_beside", &o.round.max_beside, "",
+       "points a little off an ellipsoid, for each on it", 0},
+      {"obstacles.round.max_biased", &o.round.max_biased, "",
+       "points where an ellipsoid is off them on the whole, for each on it", 0},
+      {"obstacles.round.max_ratio", &o.round.max_ratio, "",
+       "of an ellipsoid's longest axis to its shortest", 1},
       {"obstacles.split.min_gain", &o.split.min_gain, "",
        "of a hull's volume that two for its parts leave free", 0, 1},
       {"obstacles.split.min_volume", &o.split.min_volume, "m3", "nor is less worth a solid", 0},

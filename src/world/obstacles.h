@@ -6,12 +6,14 @@
 
 #include "clutter.h"
 #include "fit_solid.h"
+#include "round_parts.h"
 #include "split_clutter.h"
 
 namespace scanworld {
 
 struct ObstacleOptions {
   ClutterOptions clutter;
+  RoundPartOptions round;
   SplitClutterOptions split;
   SolidOptions solid;
   int max_obstacles = 256;  // the largest, by the area of their surface
