@@ -15,7 +15,7 @@ namespace scanworld {
 
 namespace {
 
-constexpr std::size_t kSeeds = 400;  // in a thing
+constexpr std::size_t kSeeds = 300;  // in a thing
 constexpr std::size_t kSides = 48;   // of an ellipsoid, to tell how many were seen
 constexpr double kMaxBias = 0.7;     // [noise] of what a side's points are off on the whole
 // What holds a fit back from other shapes than a ball [noise]: while it grows from a few points,
@@ -77,17 +77,17 @@ class RoundSearch {
     std::vector<char> covered(all_.points.size());
     // Every so many points, in an order that jumps about: the next ones would be neighbours.
     const std::size_t count = all_.points.size();
-    const std::size_t seeds = std::min<std::size_t>(count / 8, kSeeds);
+    const std::size_t seeds = std::min<std::size_t>(count / 16, kSeeds);
     for (std::size_t k = 0; k < seeds; ++k) {
       const double turn = static_cast<double>(k) * 0.6180339887498949;
       const auto seed =
           static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(count));
       if (covered[seed]) continue;
-      for (double reach : {3 * cell_, 6 * cell_})
-        if (auto candidate = grow(all_.points[seed], reach)) {
-          for (std::uint32_t i : candidate->on) covered[i] = 1;
-          candidates.push_back(std::move(*candidate));
-        }
+      auto candidate = grow(all_.points[seed], 3 * cell_);
+      if (!candidate) candidate = grow(all_.points[seed], 6 * cell_);
+      if (!candidate) continue;
+      for (std::uint32_t i : candidate->on) covered[i] = 1;
+      candidates.push_back(std::move(*candidate));
     }
     return choose(std::move(candidates));
   }
