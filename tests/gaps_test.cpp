@@ -63,3 +63,26 @@ TEST_CASE("a floor goes on below clutter up to the wall") {
   CHECK(evidence_at(patch, {2, 0.2, 0}) > -0.2);
   CHECK(evidence_at(patch, {2, -0.15, 0}) < -0.8);
 }
+
+TEST_CASE("what is hidden before one face of a wall is open where the other face has a doorway") {
+  LabelledScan scan;
+  const auto add_face = [&](double y, bool has_second_gap) {
+    const int face = scan.add({0, y, 0}, {0, 0, 2.5}, {1, 0, 0});
+    scan.add({2, y, 0}, {0, 0, 2.5}, {1, 0, 0}, face);
+    if (!has_second_gap) scan.add({3, y, 0}, {0, 0, 2}, {1, 0, 0}, face);
+    scan.add({4, y, 0}, {0, 0, 2.5}, {1, 0, 0}, face);
+    scan.add({1, y, 2}, {0, 0, 0.5}, {3, 0, 0}, face);
+  };
+  // Both faces have a gap from x = 1 to 2, one of them another one from 3 to 4; cupboards hide
+  // both.
+  add_face(0, true);
+  add_face(-0.1, false);
+  scan.add({0, -2, 0}, {5, 0, 0}, {0, 4, 0});
+  scan.add({1, 0.5, 0}, {0, 0, 2}, {1, 0, 0});
+  scan.add({3, 0.5, 0}, {0, 0, 2}, {1, 0, 0});
+  scan.cloud.viewpoints = {Vec3(2.5, 3, 1.5), Vec3(2.5, -3, 1.5)};
+  const Patch face = scan.weighed_patches()[0];
+  REQUIRE(face.plane.normal.y() > 0.99);
+  CHECK(evidence_at(face, {1.5, 0, 1}) < -0.5);
+  CHECK(evidence_at(face, {3.5, 0, 1}) > 0);
+}
