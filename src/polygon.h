@@ -3,12 +3,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "types.h"
 
 namespace scanworld {
+
+// The angle to the x axis of the way along which points spread most [rad].
+inline double principal_angle(const std::vector<Vec2>& points) {
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& p : points) mean += p;
+  mean /= static_cast<double>(points.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const Vec2& p : points) {
+    const Vec2 q = p - mean;
+    xx += q.x() * q.x(), xy += q.x() * q.y(), yy += q.y() * q.y();
+  }
+  return 0.5 * std::atan2(2 * xy, xx - yy);
+}
 
 // Twice the signed area of a ring: positive where it is counter-clockwise.
 inline double doubled_area(const std::vector<Vec2>& ring) {

@@ -167,7 +167,7 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
     around = find_around();
     around.viewpoints = cloud.viewpoints;
-    around.viewers = find_viewers(around, *rays, cloud.viewpoints, options.gaps.through);
+    around.viewers = find_sole_viewers(around, *rays, cloud.viewpoints, options.gaps.through);
     rays.reset();
     std::vector<Plane> faced;
     for (const Patch& patch : patches) faced.push_back(patch.plane);

@@ -78,6 +78,13 @@ inline PlaneFrame frame_of(const Plane& plane, const Vec3& near = Vec3::Zero()) 
   return {plane.project(near), u, plane.normal.cross(u)};
 }
 
+// The frame of a plane that is not level, with v as upright as can be; seen from the side that its
+// normal points to, u goes to the right.
+inline PlaneFrame upright_frame(const Plane& plane, const Vec3& up, const Vec3& origin) {
+  const Vec3 v = (up - up.dot(plane.normal) * plane.normal).normalized();
+  return {origin, v.cross(plane.normal), v};
+}
+
 // A scan. Every point is finite.
 struct PointCloud {
   std::vector<Vec3f> points;     // relative to `origin`

@@ -31,7 +31,8 @@ TEST_CASE("the viewer of a place is the nearest viewpoint that nothing hides") {
   scan.add({0, 2, 0}, {3, 0, 0}, {0, 0, 2});
   const PatchRays rays(scan.patches());
   const std::vector<Vec3> viewpoints = {{1.5, 3, 1}, {1.5, 0.5, 1}, {1.5, -0.3, 1}};
-  CHECK(find_viewer(rays, viewpoints, {1, 0, 1}, 0.05) == &viewpoints[2]);
-  CHECK(find_viewer(rays, viewpoints, {1, 2, 1}, 0.05) == &viewpoints[0]);
-  CHECK(find_viewer(rays, {viewpoints[1], viewpoints[1]}, {1, -1, 1}, 0.05) == nullptr);
+  using Indices = std::vector<std::size_t>;
+  CHECK(find_viewers(rays, viewpoints, {1, 0, 1}, 0.05, 1) == Indices{2});
+  CHECK(find_viewers(rays, viewpoints, {1, 2, 1}, 0.05, 1) == Indices{0});
+  CHECK(find_viewers(rays, {viewpoints[1], viewpoints[1]}, {1, -1, 1}, 0.05, 1).empty());
 }

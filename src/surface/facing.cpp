@@ -50,8 +50,8 @@ class Judge {
     const std::vector<Vec3> places = places_on(patch, options_.places);
     int votes = 0;
     for (const Vec3& place : places)
-      if (const Vec3* v = find_viewer(rays_, cloud_.viewpoints, place, options_.margin))
-        votes += patch.plane.signed_distance(*v) > 0 ? 1 : -1;
+      for (std::size_t v : find_viewers(rays_, cloud_.viewpoints, place, options_.margin, 1))
+        votes += patch.plane.signed_distance(cloud_.viewpoints[v]) > 0 ? 1 : -1;
     if (votes != 0) return votes < 0;
     std::int64_t along = 0;
     if (!cloud_.normals.empty())

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "../polygon.h"
+
 namespace scanworld::surface {
 
 namespace {
@@ -206,9 +208,7 @@ class EdgeFinder {
     Vec2 mean = Vec2::Zero();
     for (const Vec2& p : points) mean += p;
     mean /= static_cast<double>(points.size());
-    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-    for (const Vec2& p : points) scatter += (p - mean) * (p - mean).transpose();
-    const double angle = 0.5 * std::atan2(2 * scatter(0, 1), scatter(0, 0) - scatter(1, 1));
+    const double angle = principal_angle(points);
     const std::optional<double> snapped = snap(angle);
     const double turned = snapped.value_or(angle);
     Vec2 along(std::cos(turned), std::sin(turned));

@@ -90,11 +90,8 @@ class GapWeigher {
           if (patch.hit.bits[i] || !weighed[k].hidden.bits[i]) continue;
           const Vec2 p =
               patches_[other].frame.to_plane(patch.frame.to_space(patch.hit.middle(x, y)));
-          if (!its.open.is_set(p)) continue;
-          const Vec2 cell = (p - its.open.low) / its.open.cell;
-          evidence[i] = std::min(
-              evidence[i],
-              its.evidence[its.open.index(static_cast<int>(cell.x()), static_cast<int>(cell.y()))]);
+          const std::optional<std::size_t> at = its.open.find(p);
+          if (at && its.open.bits[*at]) evidence[i] = std::min(evidence[i], its.evidence[*at]);
         }
     }
     return evidence;

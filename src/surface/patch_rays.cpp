@@ -3,6 +3,7 @@
 #include "patch_rays.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace scanworld::surface {
 
@@ -68,20 +69,19 @@ bool PatchRays::is_free(const Vec3& from, const Vec3& to, double margin) const {
   return length <= margin || !cast(from, (to - from) / length, length - margin);
 }
 
-const Vec3* find_viewer(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
-                        const Vec3& place, double margin) {
+std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                                      const Vec3& place, double margin, std::size_t most) {
   constexpr std::size_t kTries = 4;  // those that are farther hardly saw it
-  if (viewpoints.size() == 1) return &viewpoints[0];
-  std::vector<const Vec3*> order;
-  for (const Vec3& v : viewpoints) order.push_back(&v);
+  if (viewpoints.size() == 1) return {0};
+  std::vector<std::size_t> order(viewpoints.size()), viewers;
+  std::iota(order.begin(), order.end(), std::size_t{0});
   const auto tried = order.begin() + static_cast<std::ptrdiff_t>(std::min(kTries, order.size()));
-  std::partial_sort(order.begin(), tried, order.end(), [&](const Vec3* a, const Vec3* b) {
-    return (*a - place).squaredNorm() < (*b - place).squaredNorm();
+  std::partial_sort(order.begin(), tried, order.end(), [&](std::size_t a, std::size_t b) {
+    return (viewpoints[a] - place).squaredNorm() < (viewpoints[b] - place).squaredNorm();
   });
-  const auto found = std::find_if(order.begin(), tried, [&](const Vec3* viewpoint) {
-    return rays.is_free(*viewpoint, place, margin);
-  });
-  return found == tried ? nullptr : *found;
+  for (auto v = order.begin(); v != tried && viewers.size() < most; ++v)
+    if (rays.is_free(viewpoints[*v], place, margin)) viewers.push_back(*v);
+  return viewers;
 }
 
 }  // namespace scanworld::surface

@@ -32,9 +32,9 @@ class PatchRays {
   std::unique_ptr<MeshRays> rays_;
 };
 
-// The viewpoint that has most likely seen a place: the nearest one that has a free line to it.
-// Nothing where there is none.
-const Vec3* find_viewer(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
-                        const Vec3& place, double margin);
+// The viewpoints that may have seen a place, the nearest first and no more than `most` (indices):
+// those of the four nearest that have a free line to it. A single one is taken to have seen all.
+std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                                      const Vec3& place, double margin, std::size_t most);
 
 }  // namespace scanworld::surface

@@ -38,9 +38,7 @@ void spread(Raster& raster, int reach, std::uint8_t value) {
 }  // namespace
 
 void set(Raster& raster, const Vec2& p) {
-  const Vec2 q = ((p - raster.low) / raster.cell).array().floor();
-  const int x = static_cast<int>(q.x()), y = static_cast<int>(q.y());
-  if (raster.contains(x, y)) raster.bits[raster.index(x, y)] = 1;
+  if (const auto at = raster.find(p)) raster.bits[*at] = 1;
 }
 
 Raster grow(const Raster& raster, int reach) {

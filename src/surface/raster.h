@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "../types.h"
@@ -22,9 +23,15 @@ struct Raster {
            static_cast<std::size_t>(x);
   }
   bool is_set(int x, int y) const { return contains(x, y) && bits[index(x, y)]; }
-  bool is_set(const Vec2& p) const {
+  // The index of the cell around a point, if there is one.
+  std::optional<std::size_t> find(const Vec2& p) const {
     const Vec2 q = (p - low) / cell;
-    return q.x() >= 0 && q.y() >= 0 && is_set(static_cast<int>(q.x()), static_cast<int>(q.y()));
+    if (!(q.x() >= 0 && q.y() >= 0 && q.x() < width && q.y() < height)) return std::nullopt;
+    return index(static_cast<int>(q.x()), static_cast<int>(q.y()));
+  }
+  bool is_set(const Vec2& p) const {
+    const auto at = find(p);
+    return at && bits[*at];
   }
   Vec2 middle(int x, int y) const { return low + cell * Vec2(x + 0.5, y + 0.5); }
   Vec2 high() const { return low + cell * Vec2(width, height); }

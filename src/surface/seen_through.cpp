@@ -3,7 +3,6 @@
 #include "seen_through.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "../parallel.h"
 
@@ -23,33 +22,21 @@ bool is_before(const Eigen::AlignedBox3f& box, const Plane& plane,
 
 }  // namespace
 
-std::vector<std::int32_t> find_viewers(const Surroundings& around, const PatchRays& rays,
-                                       const std::vector<Vec3>& viewpoints,
-                                       const SeenThroughOptions& options) {
-  constexpr std::size_t kTries = 4;  // those that are farther hardly saw it
+std::vector<std::int32_t> find_sole_viewers(const Surroundings& around, const PatchRays& rays,
+                                            const std::vector<Vec3>& viewpoints,
+                                            const SeenThroughOptions& options) {
   const std::size_t count = around.points.size();
   if (viewpoints.empty()) return {};
-  if (viewpoints.size() == 1) return std::vector<std::int32_t>(count, 0);
   std::vector<std::int32_t> viewers(count, -1);
   const auto most = static_cast<std::size_t>(std::max(1, options.most));
-  const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
+  const std::size_t stride =
+      viewpoints.size() == 1 ? 1 : std::max<std::size_t>(1, (count + most - 1) / most);
   parallel_for(part_count(count, kPointsPerPart), [&](std::size_t part) {
-    std::vector<std::int32_t> order(viewpoints.size());
-    const auto tried = order.begin() + static_cast<std::ptrdiff_t>(std::min(kTries, order.size()));
     const auto [begin, end] = part_of(part, count, kPointsPerPart);
     for (std::size_t i = (begin + stride - 1) / stride * stride; i < end; i += stride) {
-      const Vec3 place = around.points[i].cast<double>();
-      const auto distance = [&](std::int32_t v) {
-        return (viewpoints[static_cast<std::size_t>(v)] - place).squaredNorm();
-      };
-      std::iota(order.begin(), order.end(), 0);
-      std::partial_sort(order.begin(), tried, order.end(),
-                        [&](std::int32_t a, std::int32_t b) { return distance(a) < distance(b); });
-      int seeing = 0;
-      for (auto v = order.begin(); v != tried && seeing < 2; ++v)
-        if (rays.is_free(viewpoints[static_cast<std::size_t>(*v)], place, options.margin))
-          viewers[i] = *v, ++seeing;
-      if (seeing > 1) viewers[i] = -1;
+      const std::vector<std::size_t> seeing =
+          find_viewers(rays, viewpoints, around.points[i].cast<double>(), options.margin, 2);
+      if (seeing.size() == 1) viewers[i] = static_cast<std::int32_t>(seeing[0]);
     }
   });
   return viewers;
@@ -73,12 +60,8 @@ Raster seen_through(const Patch& patch, const Surroundings& around,
       if ((before > 0) == (behind > 0) || std::abs(behind) < options.behind) continue;
       if (std::abs(before - behind) < options.min_cosine * (to - from).norm()) continue;
       const Vec2 q = patch.frame.to_plane(from + (to - from) * (before / (before - behind)));
-      const Vec2 cell = (q - through.low) / through.cell;
-      if (cell.minCoeff() < 0) continue;
-      const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y());
-      if (!through.contains(x, y)) continue;
-      std::uint8_t& n = lines[through.index(x, y)];
-      n = static_cast<std::uint8_t>(std::min(n + 1, 255));
+      if (const auto at = through.find(q))
+        lines[*at] = static_cast<std::uint8_t>(std::min(lines[*at] + 1, 255));
     }
   }
   for (int y = 0; y < through.height; ++y)

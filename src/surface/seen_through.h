@@ -17,9 +17,9 @@ struct SeenThroughOptions {
 
 // The viewpoint of each place around, or -1: the only one of those nearby that has a free line to
 // it. Where several may have seen it, none of their lines proves that there is nothing in it.
-std::vector<std::int32_t> find_viewers(const Surroundings& around, const PatchRays& rays,
-                                       const std::vector<Vec3>& viewpoints,
-                                       const SeenThroughOptions& options = {});
+std::vector<std::int32_t> find_sole_viewers(const Surroundings& around, const PatchRays& rays,
+                                            const std::vector<Vec3>& viewpoints,
+                                            const SeenThroughOptions& options = {});
 
 // The cells of a patch that lines of sight to what is behind it go through.
 Raster seen_through(const Patch& patch, const Surroundings& around,

@@ -10,6 +10,7 @@
 #include "../circle.h"
 #include "../error.h"
 #include "../polygon.h"
+#include "convex_parts.h"
 #include "solids.h"
 #include "support_points.h"
 
@@ -85,28 +86,6 @@ std::optional<Circle> fit_circle_robustly(const std::vector<Vec2>& points, doubl
     circle = fit_circle(near);
   }
   return circle;
-}
-
-// The corners of the convex hull, counter-clockwise (Andrew 1979).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  });
-  std::vector<Vec2> hull;
-  const auto turns_left = [&](const Vec2& p) {
-    const Vec2 &a = hull[hull.size() - 2], b = hull.back() - a, c = p - a;
-    return b.x() * c.y() - b.y() * c.x() > 0;
-  };
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= first + 2 && !turns_left(p)) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 // How far points are off a face, by where on it they are: noise cancels out, another shape does
@@ -227,14 +206,23 @@ bool lies_on_faces(const PlanRectangle& r, const Upright& points, const Range& z
   return residuals.is_noise();
 }
 
+struct Spread {
+  Vec3 mean = Vec3::Zero();
+  Mat3 squares = Mat3::Zero();  // of all points together
+};
+
+Spread spread_of(std::span<const Vec3> points) {
+  Spread spread;
+  for (const Vec3& p : points) spread.mean += p / static_cast<double>(points.size());
+  for (const Vec3& p : points) spread.squares += (p - spread.mean) * (p - spread.mean).transpose();
+  return spread;
+}
+
 // A box around points in a plane or a line, at least so thick.
 OrientedBox flat_box(std::span<const Vec3> points, double thickness) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+  const auto [mean, squares] = spread_of(points);
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(spread);
+  solver.computeDirect(squares);
   Mat3 axes = solver.eigenvectors();
   axes.col(0) = axes.col(1).cross(axes.col(2));
   Box3 box;
@@ -248,13 +236,8 @@ OrientedBox flat_box(std::span<const Vec3> points, double thickness) {
 
 // Scales points so that they spread alike along all directions, nearly so where they are flat.
 Mat3 whitening(std::span<const Vec3> points) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  spread /= static_cast<double>(points.size());
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(spread);
+  solver.computeDirect(spread_of(points).squares / static_cast<double>(points.size()));
   const Vec3 variance = solver.eigenvalues().cwiseMax(1e-8);
   const Vec3 sigma = variance.cwiseMax(0.01 * variance[2]).cwiseSqrt();
   return solver.eigenvectors() * sigma.cwiseInverse().asDiagonal() *
@@ -325,7 +308,7 @@ std::optional<OrientedBox> fit_box(std::span<const Vec3> points, const Vec3& up,
       !lies_on_faces(*best, all, z, noise, tolerance))
     return std::nullopt;
   const Vec2 size(best->x.high - best->x.low, best->y.high - best->y.low);
-  if (size.x() * size.y() > options.max_empty * std::abs(doubled_area(hull_of(all.plan))) / 2)
+  if (size.x() * size.y() > options.max_empty * std::abs(doubled_area(convex_hull(all.plan))) / 2)
     return std::nullopt;
   const Vec2 middle((best->x.low + best->x.high) / 2, (best->y.low + best->y.high) / 2);
   Mat3 axes;
@@ -341,12 +324,12 @@ std::optional<OrientedBox> fit_box(std::span<const Vec3> points, const Vec3& up,
 
 Solid enclose(std::span<const Vec3> points, double noise, const SolidOptions& options) {
   const Mat3 white = whitening(points);
+  std::vector<Vec3> ways = even_directions(options.max_vertices);
+  for (Vec3& u : ways) u = (white * u).normalized();
   ConvexHull hull;
-  for (const Vec3& even : even_directions(options.max_vertices))
-    hull.vertices.push_back(outermost(points, (white * even).normalized(), noise));
+  for (const Vec3& u : ways) hull.vertices.push_back(outermost(points, u, noise));
   double thinnest = 1e300;
-  for (const Vec3& even : even_directions(options.max_vertices)) {
-    const Vec3 u = (white * even).normalized();
+  for (const Vec3& u : ways) {
     Range range{1e300, -1e300};
     for (const Vec3& v : hull.vertices)
       range = {std::min(range.low, u.dot(v)), std::max(range.high, u.dot(v))};
@@ -363,10 +346,16 @@ Solid enclose(std::span<const Vec3> points, double noise, const SolidOptions& op
   return ConvexHull{mesh.vertices};
 }
 
-Solid fit_solid(std::span<const Vec3> points, const Vec3& up, double noise,
-                const SolidOptions& options) {
+std::optional<Solid> fit_simple(std::span<const Vec3> points, const Vec3& up, double noise,
+                                const SolidOptions& options) {
   if (const auto cylinder = fit_cylinder(points, up, noise, options)) return *cylinder;
   if (const auto box = fit_box(points, up, noise, options)) return *box;
+  return std::nullopt;
+}
+
+Solid fit_solid(std::span<const Vec3> points, const Vec3& up, double noise,
+                const SolidOptions& options) {
+  if (const auto simple = fit_simple(points, up, noise, options)) return *simple;
   return enclose(points, noise, options);
 }
 

@@ -33,6 +33,10 @@ std::optional<OrientedBox> fit_box(std::span<const Vec3> points, const Vec3& up,
 // where they lie in a plane.
 Solid enclose(std::span<const Vec3> points, double noise, const SolidOptions& options = {});
 
+// The cylinder, else the box, on whose faces these points lie; nothing where they do not.
+std::optional<Solid> fit_simple(std::span<const Vec3> points, const Vec3& up, double noise,
+                                const SolidOptions& options = {});
+
 // The simplest solid that fits: a cylinder, else a box, else a hull.
 Solid fit_solid(std::span<const Vec3> points, const Vec3& up, double noise,
                 const SolidOptions& options = {});

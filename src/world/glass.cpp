@@ -25,10 +25,10 @@ struct Pane {
 Pane pane_of(const World& world, const Opening& window, double rim) {
   const auto surface = std::find_if(world.surfaces.begin(), world.surfaces.end(),
                                     [&](const Surface& s) { return s.id == window.surface; });
-  const Plane& plane = surface->plane;
-  const Vec3 y = (world.frame.up - world.frame.up.dot(plane.normal) * plane.normal).normalized();
-  Pane pane{.plane = plane, .frame = {Vec3::Zero(), y.cross(plane.normal), y}, .middle = {}};
-  pane.frame.origin = world.vertices[static_cast<std::size_t>(window.loop[0])];
+  const Vec3& corner = world.vertices[static_cast<std::size_t>(window.loop[0])];
+  Pane pane{.plane = surface->plane,
+            .frame = upright_frame(surface->plane, world.frame.up, corner),
+            .middle = {}};
   for (int v : window.loop)
     pane.box.extend(pane.frame.to_plane(world.vertices[static_cast<std::size_t>(v)]));
   pane.rim = {pane.box.min().array() - rim, pane.box.max().array() + rim};

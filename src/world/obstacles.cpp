@@ -38,7 +38,7 @@ std::vector<Candidate> enclose_thing(std::span<const Vec3> thing, double cell, c
                                      double noise, const ObstacleOptions& options) {
   const Vec3& up = world.frame.up;
   const auto is_simple = [&](std::span<const Vec3> part) {
-    return fit_cylinder(part, up, noise, options.solid) || fit_box(part, up, noise, options.solid);
+    return fit_simple(part, up, noise, options.solid).has_value();
   };
   std::vector<Candidate> found;
   const auto add = [&](const Solid& solid) {
@@ -46,8 +46,8 @@ std::vector<Candidate> enclose_thing(std::span<const Vec3> thing, double cell, c
     c.area = area_of(mesh_of(Obstacle{.shape = c.solid}, world.frame));
     found.push_back(std::move(c));
   };
-  if (is_simple(thing)) {
-    add(fit_solid(thing, up, noise, options.solid));
+  if (const auto simple = fit_simple(thing, up, noise, options.solid)) {
+    add(*simple);
     return found;
   }
   const RoundParts parts = find_round_parts(thing, cell, noise, options.round);

@@ -34,12 +34,6 @@ struct Gap {
   double height() const { return clear.sizes().y(); }
 };
 
-// (u, v) with v as upright as can be; seen from the free side u goes to the right.
-PlaneFrame upright_frame(const Plane& plane, const Vec3& up, const Vec3& origin) {
-  const Vec3 v = (up - up.dot(plane.normal) * plane.normal).normalized();
-  return {origin, v.cross(plane.normal), v};
-}
-
 // Whether a box lies in a ring, but for `kSame` at its sides.
 bool holds(const std::vector<Vec2>& ring, const Box2& box) {
   if (!is_inside({ring}, box.center())) return false;

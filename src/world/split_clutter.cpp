@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "split_clutter.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "../polygon.h"
 #include "hull_volume.h"
 #include "solids.h"
 #include "support_points.h"
@@ -39,15 +39,9 @@ struct Cut {
 // The axes across which a thing may be cut: upwards, and those of its plan.
 std::array<Vec3, 3> axes_of(const std::vector<Vec3>& points, const Vec3& up) {
   const PlaneFrame frame = frame_of({up, 0});
-  Vec2 mean = Vec2::Zero();
-  for (const Vec3& p : points) mean += frame.to_plane(p);
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const Vec3& p : points) {
-    const Vec2 q = frame.to_plane(p) - mean;
-    spread += q * q.transpose();
-  }
-  const double angle = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  std::vector<Vec2> plan;
+  for (const Vec3& p : points) plan.push_back(frame.to_plane(p));
+  const double angle = principal_angle(plan);
   const Vec3 along = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
   return {up, along, up.cross(along)};
 }

@@ -30,13 +30,12 @@ std::vector<Patch> LabelledScan::weighed_patches() const {
 Surroundings LabelledScan::surroundings() const {
   Surroundings around = surroundings_of(cloud.points, labels);
   around.viewpoints = cloud.viewpoints;
-  around.viewers = find_viewers(around, PatchRays(patches()), cloud.viewpoints);
+  around.viewers = find_sole_viewers(around, PatchRays(patches()), cloud.viewpoints);
   return around;
 }
 
 float evidence_at(const Patch& patch, const Vec3& p) {
-  const Vec2 q = (patch.frame.to_plane(p) - patch.hit.low) / patch.hit.cell;
-  return patch.evidence[patch.hit.index(static_cast<int>(q.x()), static_cast<int>(q.y()))];
+  return patch.evidence[patch.hit.find(patch.frame.to_plane(p)).value()];
 }
 
 Patch blank_patch(const Vec2& size, double cell) {
