@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kBuildExample = R"(Example:
   scanworld build office.ply -o office
-writes office/world.json, report.json, world.obj, world.stl and world.glb.
+writes office/world.json, report.json, world.obj, world.stl, world.glb and world.bullet.
 
 'scanworld build --options' lists what can be set with --set and --config.)";
 
@@ -35,7 +35,7 @@ struct BuildRequest {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
   std::string method = "rival", preset;  // an empty preset: the one that suits the scan
-  std::vector<std::string> assignments, exports = {"obj", "stl", "glb"};
+  std::vector<std::string> assignments, exports = {"obj", "stl", "glb", "bullet"};
   int threads = 0;
   std::uint64_t seed = 1;
   bool labels = false, json = false, show_options = false;
@@ -117,7 +117,7 @@ void write_files(const std::filesystem::path& folder, const BuildRequest& reques
                  const ReconstructResult& result) {
   write_world(folder / "world.json", result.world);
   for (const ExportFormat& format : formats)
-    format.write(folder / ("world." + format.name), result.world);
+    export_world(result.world, folder / ("world." + format.extension), {}, format.name);
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 

@@ -7,30 +7,90 @@
 #include <memory>
 
 #include "cli.h"
+#include "error.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
 
+namespace {
+
+struct ExportRequest {
+  std::filesystem::path world, out;
+  std::string format, up = "z", color = "scan", budget;
+  std::vector<double> origin = {0, 0, 0};
+  bool all = false;
+  ExportOptions options;
+  Console console;
+};
+
+void run(ExportRequest request) {
+  ExportOptions& options = request.options;
+  options.y_up = request.up == "y";
+  options.color_by_kind = request.color == "kind";
+  options.origin = {request.origin[0], request.origin[1], request.origin[2]};
+  options.budget = budget_from(request.budget);
+  if (request.all && !request.format.empty())
+    throw Error(Cause::usage, "--all writes every format; leave --format out");
+  if (!request.all) export_format(request.out, request.format);  // before the world is read
+  const World world = read_world(request.world);
+  if (!request.all) return export_world(world, request.out, options, request.format);
+  for (const LeftOut& format : export_all(world, request.out, options))
+    request.console.warn("left out " + format.format + ": " + format.why);
+}
+
+std::string footer() {
+  std::string text = "Formats:\n";
+  for (const ExportFormat& f : export_formats())
+    text +=
+        fmt::format("  {:<9} {}\n",
+                    f.name + (f.extension == f.name ? "" : " (." + f.extension + ")"), f.describes);
+  return text +
+         "\nExamples:\n  scanworld export office -o office.glb\n"
+         "  scanworld export office -o office_for_all --all\n"
+         "  scanworld export office -o office.xml --budget solids=500,hull_vertices=60";
+}
+
+}  // namespace
+
 void add_export(CLI::App& app) {
-  struct ExportRequest {
-    std::filesystem::path world, out;
-    std::string format;
-  };
   auto request = std::make_shared<ExportRequest>();
+  ExportOptions& options = request->options;
   CLI::App* verb = app.add_subcommand("export", "Write a world in another format");
   verb->add_option("world", request->world, "A world.json or its folder")
       ->required()
       ->type_name("WORLD");
-  verb->add_option("-o,--out", request->out, "File to write")->required()->type_name("OUT");
+  verb->add_option("-o,--out", request->out, "File to write; with --all a folder")
+      ->required()
+      ->type_name("OUT");
   verb->add_option("--format", request->format, "Format, where the extension does not tell it");
-  std::string formats = "Formats:\n";
-  for (const ExportFormat& f : export_formats())
-    formats += fmt::format("  {:<5} {}\n", f.name, f.describes);
-  verb->footer(formats + "\nExample:\n  scanworld export office -o office.glb");
-  verb->callback([request] {
-    const ExportFormat& format = export_format(request->out, request->format);
-    format.write(request->out, read_world(request->world));
-  });
+  verb->add_flag("--all", request->all, "Write every format, and a README how to load each");
+  verb->add_option("--friction", options.friction, "Of all solids")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--thickness", options.min_thickness,
+                   "Least thickness of colliders [m]; thinner ones grow away from the free side")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  verb->add_option("--origin", request->origin, "Point of the world that becomes the origin [m]")
+      ->expected(3)
+      ->type_name("X Y Z");
+  verb->add_flag("--level", options.level, "Turn the world upright, so that up is +z");
+  verb->add_option("--up", request->up, "Axis that is up, where the format lets one choose")
+      ->check(CLI::IsMember({"z", "y"}))
+      ->capture_default_str();
+  verb->add_option("--color", request->color,
+                   "Of the surfaces: the scan's where it has any, or by kind")
+      ->check(CLI::IsMember({"scan", "kind"}))
+      ->capture_default_str();
+  verb->add_flag("--merge", options.merge, "All that is seen in one mesh");
+  verb->add_flag("--physics", options.physics,
+                 "glTF: with colliders (KHR_physics_rigid_bodies, a draft)");
+  verb->add_option("--budget", request->budget,
+                   "Most that the engine takes: faces=N,solids=N,hulls=N,hull_vertices=N")
+      ->type_name("CAPS");
+  verb->add_flag("-q,--quiet", request->console.quiet, "No warnings");
+  verb->footer(footer());
+  verb->callback([request] { run(*request); });
 }
 
 }  // namespace scanworld::cli

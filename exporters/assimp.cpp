@@ -7,6 +7,7 @@
 
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <fstream>
 #include <memory>
 
 #include "error.h"
@@ -51,8 +52,7 @@ aiMaterial* make_material(const ExportPart& part) {
 }
 
 // The scene owns all that is made with new, as assimp wants it.
-std::unique_ptr<aiScene> scene_of(const World& world) {
-  const std::vector<ExportPart> parts = export_parts(world);
+std::unique_ptr<aiScene> scene_of(const std::vector<ExportPart>& parts) {
   const unsigned count = static_cast<unsigned>(parts.size());
   auto scene = std::make_unique<aiScene>();
   scene->mNumMeshes = scene->mNumMaterials = count;
@@ -84,21 +84,52 @@ void fill_element(std::string& xml, const std::string& tag, const std::string& v
     xml.replace(begin + tag.size() + 2, end - begin - tag.size() - 2, value);
 }
 
-}  // namespace
-
-void write_with_assimp(const std::filesystem::path& path, const World& world,
-                       const std::string& format) {
-  const auto scene = scene_of(world);
+// The file's bytes, in a format by assimp's name for it.
+std::string written(const std::filesystem::path& path, const aiScene& scene,
+                    const std::string& format) {
+  // Through a file, as assimp makes 3MF no other way.
+  const std::filesystem::path part = path.string() + ".assimp";
   Assimp::Exporter exporter;
-  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), format);
-  if (!blob)
+  if (exporter.Export(&scene, format, part.string()) != aiReturn_SUCCESS)
     throw Error(Cause::failure,
                 path.string() + ": assimp cannot write it: " + exporter.GetErrorString());
-  std::string text(static_cast<const char*>(blob->data), blob->size);
+  std::ifstream file(part, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.close();
+  std::filesystem::remove(part);
+  return bytes;
+}
+
+// Sets the time of all entries of a ZIP archive to its earliest, 1980.
+void forget_times(std::string& zip) {
+  const std::string local("PK\3\4", 4), central("PK\1\2", 4);
+  const std::string time("\0\0\x21\0", 4);
+  for (const auto& [mark, offset] : {std::pair(local, 10), std::pair(central, 12)})
+    for (std::size_t at = 0; (at = zip.find(mark, at)) != std::string::npos; at += 4)
+      if (at + offset + 4 <= zip.size()) zip.replace(at + offset, 4, time);
+}
+
+}  // namespace
+
+void write_dae(const std::filesystem::path& path, const World& world,
+               const ExportOptions& options) {
+  std::string text = written(path, *scene_of(export_parts(world, options)), "collada");
   // The same world gives the same file: not the time of writing.
   for (const char* tag : {"created", "modified"}) fill_element(text, tag, "2000-01-01T00:00:00");
   OutputFile file(path);
   file.write(text);
+  file.commit();
+}
+
+void write_3mf(const std::filesystem::path& path, const World& world,
+               const ExportOptions& options) {
+  std::vector<ExportPart> parts = export_parts(world, options);
+  for (ExportPart& part : parts)
+    for (Vec3& v : part.mesh.vertices) v *= 1000;  // the format's unit is the millimetre
+  std::string zip = written(path, *scene_of(parts), "3mf");
+  forget_times(zip);
+  OutputFile file(path);
+  file.write(zip);
   file.commit();
 }
 

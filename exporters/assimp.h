@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <string>
 
+#include "export_options.h"
 #include "world/world.h"
 
 namespace scanworld {
 
-// Writes a format that assimp writes well; `format` is its name there ("collada"). Metres; +Z up
-// where the format can say so.
-void write_with_assimp(const std::filesystem::path& path, const World& world,
-                       const std::string& format);
+// Collada and 3MF, by assimp: a node a surface or obstacle, in metres, +Z up.
+void write_dae(const std::filesystem::path& path, const World& world, const ExportOptions& options);
+void write_3mf(const std::filesystem::path& path, const World& world, const ExportOptions& options);
 
 // Reads a mesh of any format that assimp knows, in the file's own axes, equal vertices joined.
 // Throws bad_input naming the file.

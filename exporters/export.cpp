@@ -7,27 +7,79 @@
 #include <algorithm>
 
 #include "assimp.h"
+#include "bullet.h"
 #include "error.h"
 #include "files.h"
 #include "gltf.h"
+#include "mjcf.h"
 #include "obj.h"
 #include "ply.h"
+#include "sdf.h"
 #include "stl.h"
+#include "urdf.h"
+#include "usda.h"
 #include "world/world_json.h"
 
 namespace scanworld {
 
+namespace {
+
+void write_json(const std::filesystem::path& path, const World& world, const ExportOptions&) {
+  write_world(path, world);
+}
+
+void check_fits(const ExportFormat& format, const std::filesystem::path& path,
+                const ExportOptions& options) {
+  if (options.y_up && !format.any_up)
+    throw Error(Cause::usage, fmt::format("{}: {} has an up axis of its own; leave --up out",
+                                          path.string(), format.name));
+}
+
+std::string readme(const std::vector<LeftOut>& left_out) {
+  std::string text =
+      "# A world by scanworld\n\nMetres, Z up but for world.glb, which is Y up as glTF demands. "
+      "All files hold the same "
+      "world, under the same names. Paths are relative: the folder can be moved.\n\n"
+      "| file | what | how to load it |\n| --- | --- | --- |\n";
+  for (const ExportFormat& f : export_formats()) {
+    const auto is_this = [&](const LeftOut& l) { return l.format == f.name; };
+    const std::string file = "world." + f.extension;
+    if (const auto l = std::find_if(left_out.begin(), left_out.end(), is_this); l != left_out.end())
+      text += fmt::format("| (no {}) | {} | left out: {} |\n", file, f.describes, l->why);
+    else
+      text += fmt::format("| {} | {} | {} |\n", file, f.describes,
+                          fmt::format(fmt::runtime(f.loading), file));
+  }
+  return text;
+}
+
+}  // namespace
+
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
-      {"obj", "Wavefront OBJ with MTL, an object a surface", write_obj},
-      {"stl", "binary STL, triangles only", write_stl},
-      {"glb", "binary glTF 2.0, Y-up, a named node a surface", write_glb},
-      {"ply", "binary PLY mesh, shared vertices, face colours and surface ids", write_ply_mesh},
-      {"dae", "Collada, by assimp",
-       [](const std::filesystem::path& path, const World& world) {
-         write_with_assimp(path, world, "collada");
-       }},
-      {"json", "the world itself, world.json", write_world},
+      {"obj", "obj", "Wavefront OBJ with MTL, an object a surface",
+       "any viewer or modeller: open {0}", write_obj, true},
+      {"stl", "stl", "binary STL, triangles only", "any viewer, slicer or simulator: open {0}",
+       write_stl, true},
+      {"glb", "glb", "binary glTF 2.0, Y-up, a named node a surface",
+       "Blender: File > Import > glTF; three.js: `new GLTFLoader().load('{0}')`", write_glb},
+      {"ply", "ply", "binary PLY mesh, shared vertices, face colours and surface ids",
+       "Open3D: `open3d.io.read_triangle_mesh('{0}')`", write_ply_mesh, true},
+      {"dae", "dae", "Collada, by assimp", "any modeller: import {0}", write_dae},
+      {"3mf", "3mf", "3MF, by assimp", "any slicer or modeller: open {0}", write_3mf},
+      {"bullet", "bullet", "Bullet: a static body a solid, and a mesh for rays",
+       "`btBulletWorldImporter(dynamics_world).loadFile(\"{0}\")`; PyBullet: `loadBullet('{0}')`",
+       write_bullet},
+      {"urdf", "urdf", "URDF of one link that stands still, with a folder of meshes",
+       "PyBullet: `loadURDF('{0}', useFixedBase=True)`", write_urdf},
+      {"sdf", "sdf", "SDF 1.7 for Gazebo: a world, and the folder of the model that it includes",
+       "`GZ_SIM_RESOURCE_PATH=$PWD gz sim {0}` (Gazebo 11: `GAZEBO_MODEL_PATH=$PWD gazebo {0}`)",
+       write_sdf},
+      {"mjcf", "xml", "MJCF for MuJoCo: boxes and convex meshes",
+       "`mujoco.MjModel.from_xml_path('{0}')`; in a model: `<include file=\"{0}\"/>`", write_mjcf},
+      {"usda", "usda", "USD as text, with UsdPhysics colliders",
+       "Isaac Sim, usdview: open {0}; in a stage: add it as a reference", write_usda, true},
+      {"json", "json", "the world itself, world.json", "`scanworld info {0}`", write_json, true},
   };
   return formats;
 }
@@ -37,8 +89,9 @@ const ExportFormat& export_format(const std::filesystem::path& path, const std::
                              : lower_extension(path).empty() ? ""
                                                              : lower_extension(path).substr(1);
   const auto& formats = export_formats();
-  const auto found = std::find_if(formats.begin(), formats.end(),
-                                  [&](const ExportFormat& f) { return f.name == wanted; });
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const ExportFormat& f) {
+    return f.name == wanted || f.extension == wanted;
+  });
   if (found != formats.end()) return *found;
   std::string names;
   for (const ExportFormat& f : formats) names += (names.empty() ? "" : ", ") + f.name;
@@ -47,8 +100,29 @@ const ExportFormat& export_format(const std::filesystem::path& path, const std::
 }
 
 void export_world(const World& world, const std::filesystem::path& path,
-                  const std::string& format) {
-  export_format(path, format).write(path, world);
+                  const ExportOptions& options, const std::string& format) {
+  const ExportFormat& chosen = export_format(path, format);
+  check_fits(chosen, path, options);
+  chosen.write(path, prepare_export(world, options), options);
+}
+
+std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,
+                                const ExportOptions& options) {
+  OutputFolder output(folder, "world_model");  // which nothing else makes
+  const World prepared = prepare_export(world, options);
+  std::vector<LeftOut> left_out;
+  for (const ExportFormat& format : export_formats()) try {
+      check_fits(format, folder, options);
+      format.write(output.path() / ("world." + format.extension), prepared, options);
+    } catch (const Error& error) {
+      if (error.cause != Cause::usage) throw;
+      left_out.push_back({format.name, error.what()});
+    }
+  OutputFile file(output.path() / "README.md");
+  file.write(readme(left_out));
+  file.commit();
+  output.commit();
+  return left_out;
 }
 
 }  // namespace scanworld

@@ -6,15 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "export_options.h"
 #include "world/world.h"
 
 namespace scanworld {
 
 // A format that worlds are written in.
 struct ExportFormat {
-  std::string name;       // "stl"; also the extension
+  std::string name;       // "stl"
+  std::string extension;  // without dot; mostly the name
   std::string describes;  // in a few words
-  void (*write)(const std::filesystem::path&, const World&);
+  std::string loading;    // how to load it, {0} standing for the file
+  void (*write)(const std::filesystem::path&, const World&, const ExportOptions&);
+  bool any_up = false;  // whether it can be written with Y up as well
 };
 
 const std::vector<ExportFormat>& export_formats();
@@ -23,9 +27,24 @@ const std::vector<ExportFormat>& export_formats();
 // those that exist.
 const ExportFormat& export_format(const std::filesystem::path& path, const std::string& name = "");
 
-// Writes a world in the format of the file's extension, or in `format`. The file appears whole or
-// not at all.
+// The world as it is to be written: moved, turned and coloured as asked, and with colliders, which
+// are made where it has none. Throws usage where it is over the budget, saying what and by how
+// much.
+World prepare_export(World world, const ExportOptions& options);
+
+// Prepares a world and writes it in the format of the file's extension, or in `format`. Every file
+// appears whole or not at all. Throws usage where an option does not go with the format.
 void export_world(const World& world, const std::filesystem::path& path,
-                  const std::string& format = "");
+                  const ExportOptions& options = {}, const std::string& format = "");
+
+// A format that a world could not be written in.
+struct LeftOut {
+  std::string format, why;
+};
+
+// Writes a folder with the world in every format, and a README that says how to load each. The
+// folder appears whole or not at all. What a format refuses is left out and told.
+std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,
+                                const ExportOptions& options = {});
 
 }  // namespace scanworld

@@ -9,6 +9,7 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
+#include "bodies.h"
 #include "error.h"
 #include "files.h"
 #include "parts.h"
@@ -18,7 +19,12 @@ namespace scanworld {
 
 namespace {
 
+constexpr const char* kShapes = "KHR_implicit_shapes";
+constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
+
+// From Z-up to Y-up, for vertices and for orientations.
 Vec3f y_up(const Vec3& v) { return Vec3(v.x(), v.z(), -v.y()).cast<float>(); }
+const Eigen::Quaterniond kYUp(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
 
 tinygltf::Value list_of(const Vec3& v) {
   return tinygltf::Value({tinygltf::Value(v.x()), tinygltf::Value(v.y()), tinygltf::Value(v.z())});
@@ -42,14 +48,102 @@ class Builder {
   }
 
   void add(const ExportPart& part) {
+    const int mesh = add_mesh(part.name, part.mesh, part.color);
+    if (mesh < 0) return;
+    tinygltf::Node node;
+    node.name = part.name;
+    node.mesh = mesh;
+    node.extras =
+        tinygltf::Value({{part.is_surface ? "surface_id" : "obstacle_id", tinygltf::Value(part.id)},
+                         {"kind", tinygltf::Value(std::string(name_of(part.kind)))}});
+    model_.scenes[0].nodes.push_back(add_node(node));
+  }
+
+  // The solids, as KHR_physics_rigid_bodies and KHR_implicit_shapes were in October 2025. A node
+  // without motion stands still.
+  void add(const std::vector<ExportBody>& bodies, double friction) {
+    if (bodies.empty()) return;
+    model_.extensionsUsed = {kShapes, kRigidBodies};
+    tinygltf::Node root;
+    root.name = "colliders";
+    tinygltf::Value::Array shapes;
+    for (const ExportBody& body : bodies) {
+      tinygltf::Node node;
+      node.name = body.name;
+      const Vec3 p = kYUp * body.position;
+      Eigen::Quaterniond q = kYUp * body.rotation;
+      if (!std::holds_alternative<BoxShape>(body.shape))
+        q = q * kYUp.conjugate();  // the axis of cylinders is y there, and meshes are Y-up
+      node.translation = {p.x(), p.y(), p.z()};
+      node.rotation = {q.x(), q.y(), q.z(), q.w()};
+      node.extensions[kRigidBodies] =
+          object("collider", tinygltf::Value({{"geometry", geometry_of(body, shapes)},
+                                              {"physicsMaterial", tinygltf::Value(0)}}));
+      root.children.push_back(add_node(node));
+    }
+    if (!shapes.empty()) model_.extensions[kShapes] = object("shapes", tinygltf::Value(shapes));
+    const tinygltf::Value material({{"staticFriction", tinygltf::Value(friction)},
+                                    {"dynamicFriction", tinygltf::Value(friction)},
+                                    {"restitution", tinygltf::Value(0.0)}});
+    model_.extensions[kRigidBodies] =
+        object("physicsMaterials", tinygltf::Value(tinygltf::Value::Array{material}));
+    model_.scenes[0].nodes.push_back(add_node(root));
+  }
+
+  std::string write() {
+    if (model_.buffers[0].data.empty()) model_.buffers.clear();
+    std::ostringstream out;
+    tinygltf::TinyGLTF writer;
+    if (!writer.WriteGltfSceneToStream(&model_, out, false, true))
+      throw Error(Cause::failure, "glTF cannot be written");
+    return out.str();
+  }
+
+ private:
+  static tinygltf::Value object(const std::string& key, const tinygltf::Value& value) {
+    return tinygltf::Value(tinygltf::Value::Object{{key, value}});
+  }
+
+  int add_node(const tinygltf::Node& node) {
+    model_.nodes.push_back(node);
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+
+  // What a collider is: a shape, added to the others, or the hull of a node's mesh that is in no
+  // scene, so that it is not seen.
+  tinygltf::Value geometry_of(const ExportBody& body, tinygltf::Value::Array& shapes) {
+    if (const auto* convex = std::get_if<ConvexShape>(&body.shape)) {
+      tinygltf::Node node;
+      node.name = body.name + "_hull";
+      node.mesh = add_mesh(node.name, convex->mesh, body.color);
+      return tinygltf::Value(
+          {{"node", tinygltf::Value(add_node(node))}, {"convexHull", tinygltf::Value(true)}});
+    }
+    if (const auto* box = std::get_if<BoxShape>(&body.shape)) {
+      shapes.push_back(tinygltf::Value({{"type", tinygltf::Value(std::string("box"))},
+                                        {"box", object("size", list_of(box->size))}}));
+    } else {
+      const CylinderShape& c = std::get<CylinderShape>(body.shape);
+      shapes.push_back(tinygltf::Value(
+          {{"type", tinygltf::Value(std::string("cylinder"))},
+           {"cylinder", tinygltf::Value({{"height", tinygltf::Value(c.height)},
+                                         {"radiusBottom", tinygltf::Value(c.radius)},
+                                         {"radiusTop", tinygltf::Value(c.radius)}})}}));
+    }
+    return object("shape", tinygltf::Value(static_cast<int>(shapes.size()) - 1));
+  }
+
+  // Adds a mesh with flat faces, its vertices turned to Y-up; gives -1 where nothing is left of it
+  // in single precision.
+  int add_mesh(const std::string& name, const Mesh& faces, const Color& color) {
     // A flat face has one normal, so faces do not share vertices with others of another normal.
     std::vector<Vec3f> points, normals;
     std::vector<std::uint32_t> corners;
     std::map<std::array<float, 6>, std::uint32_t> index_of;
-    for (const auto& t : part.mesh.triangles) {
+    for (const auto& t : faces.triangles) {
       std::array<Vec3f, 3> p;
       for (std::size_t k = 0; k < 3; ++k)
-        p[k] = y_up(part.mesh.vertices[static_cast<std::size_t>(t[k])]);
+        p[k] = y_up(faces.vertices[static_cast<std::size_t>(t[k])]);
       const Vec3f n = (p[1] - p[0])
                           .cast<double>()
                           .cross((p[2] - p[0]).cast<double>())
@@ -63,7 +157,7 @@ class Builder {
         corners.push_back(found->second);
       }
     }
-    if (corners.empty()) return;
+    if (corners.empty()) return -1;
 
     tinygltf::Primitive primitive;
     primitive.attributes["POSITION"] = add_vectors(points, true);
@@ -72,32 +166,14 @@ class Builder {
                                      TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = material(part.color);
+    primitive.material = material(color);
     tinygltf::Mesh mesh;
-    mesh.name = part.name;
+    mesh.name = name;
     mesh.primitives.push_back(primitive);
     model_.meshes.push_back(mesh);
-
-    tinygltf::Node node;
-    node.name = part.name;
-    node.mesh = static_cast<int>(model_.meshes.size()) - 1;
-    node.extras =
-        tinygltf::Value({{part.is_surface ? "surface_id" : "obstacle_id", tinygltf::Value(part.id)},
-                         {"kind", tinygltf::Value(std::string(name_of(part.kind)))}});
-    model_.nodes.push_back(node);
-    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
+    return static_cast<int>(model_.meshes.size()) - 1;
   }
 
-  std::string write() {
-    if (model_.buffers[0].data.empty()) model_.buffers.clear();
-    std::ostringstream out;
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, false, true))
-      throw Error(Cause::failure, "glTF cannot be written");
-    return out.str();
-  }
-
- private:
   int add_accessor(const void* values, std::size_t count, std::size_t size, int target,
                    int component, int type) {
     std::vector<unsigned char>& bytes = model_.buffers[0].data;
@@ -154,9 +230,11 @@ class Builder {
 
 }  // namespace
 
-void write_glb(const std::filesystem::path& path, const World& world) {
+void write_glb(const std::filesystem::path& path, const World& world,
+               const ExportOptions& options) {
   Builder builder(world);
-  for (const ExportPart& part : export_parts(world)) builder.add(part);
+  for (const ExportPart& part : export_parts(world, options)) builder.add(part);
+  if (options.physics) builder.add(export_bodies(world, options), options.friction);
   OutputFile file(path);
   file.write(builder.write());
   file.commit();

@@ -33,11 +33,28 @@ std::string frame_comment(const Frame& frame) {
   return text + "\n";
 }
 
+// A mesh as an object whose first vertex has the number `base`.
+std::string object_text(const std::string& name, const std::string& material, const Mesh& mesh,
+                        int base) {
+  std::string obj = fmt::format("o {}\n", name);
+  if (!material.empty()) obj += fmt::format("usemtl {}\n", material);
+  for (const Vec3& v : mesh.vertices)
+    obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
+  for (const auto& t : mesh.triangles)
+    obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
+  return obj;
+}
+
 }  // namespace
 
-void write_obj(const std::filesystem::path& path, const World& world) {
-  const std::vector<ExportPart> parts = export_parts(world);
-  const std::filesystem::path mtl_path = std::filesystem::path(path).replace_extension(".mtl");
+std::string obj_text(const std::string& name, const Mesh& mesh) {
+  return object_text(name, "", mesh, 1);
+}
+
+void write_obj(const std::filesystem::path& path, const World& world,
+               const ExportOptions& options) {
+  const std::vector<ExportPart> parts = export_parts(world, options);
+  const std::filesystem::path mtl_path = path.parent_path() / (safe_name(path) + ".mtl");
 
   std::string mtl = "# scanworld\n";
   std::set<std::string> known;
@@ -50,11 +67,7 @@ void write_obj(const std::filesystem::path& path, const World& world) {
   obj += fmt::format("mtllib {}\n", mtl_path.filename().string());
   int base = 1;
   for (const ExportPart& part : parts) {
-    obj += fmt::format("o {}\nusemtl {}\n", part.name, material_name(part));
-    for (const Vec3& v : part.mesh.vertices)
-      obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
-    for (const auto& t : part.mesh.triangles)
-      obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
+    obj += object_text(part.name, material_name(part), part.mesh, base);
     base += static_cast<int>(part.mesh.vertices.size());
   }
 

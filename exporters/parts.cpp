@@ -11,6 +11,18 @@
 
 namespace scanworld {
 
+namespace {
+
+std::vector<ExportPart> merged(const std::vector<ExportPart>& parts) {
+  if (parts.empty()) return {};
+  ExportPart all = parts[0];
+  all.name = "world";
+  for (auto part = parts.begin() + 1; part != parts.end(); ++part) append(all.mesh, part->mesh);
+  return {all};
+}
+
+}  // namespace
+
 Color color_of(Kind kind) {
   switch (kind) {
     case Kind::floor:
@@ -25,15 +37,25 @@ Color color_of(Kind kind) {
   return {};
 }
 
-std::vector<ExportPart> export_parts(const World& world) {
+Color color_of(const Surface& surface) { return surface.color.value_or(color_of(surface.kind)); }
+
+std::string name_of(const Surface& surface) {
+  return fmt::format("{}_{}", name_of(surface.kind), surface.id);
+}
+
+std::string name_of(const Obstacle& obstacle) { return fmt::format("obstacle_{}", obstacle.id); }
+
+std::string safe_name(const std::filesystem::path& path) {
+  std::string name = path.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '_' && c != '-') c = '_';
+  return name.empty() ? "world" : name;
+}
+
+std::vector<ExportPart> export_parts(const World& world, const ExportOptions& options) {
   std::vector<ExportPart> parts;
   for (const Surface& s : world.surfaces)
-    parts.push_back({fmt::format("{}_{}", name_of(s.kind), s.id),
-                     s.id,
-                     true,
-                     s.kind,
-                     s.color.value_or(color_of(s.kind)),
-                     {}});
+    parts.push_back({name_of(s), s.id, true, s.kind, color_of(s), {}});
 
   const WorldMesh triangles = triangulate(world);
   std::vector<std::map<int, int>> local(
@@ -52,9 +74,9 @@ std::vector<ExportPart> export_parts(const World& world) {
     mesh.triangles.push_back(triangle);
   }
   for (const Obstacle& o : world.obstacles)
-    parts.push_back({fmt::format("obstacle_{}", o.id), o.id, false, Kind::other,
-                     color_of(Kind::other), mesh_of(o, world.frame)});
-  return parts;
+    parts.push_back(
+        {name_of(o), o.id, false, Kind::other, color_of(Kind::other), mesh_of(o, world.frame)});
+  return options.merge ? merged(parts) : parts;
 }
 
 }  // namespace scanworld

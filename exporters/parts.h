@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "export_options.h"
 #include "world/world.h"
 
 namespace scanworld {
@@ -21,10 +23,20 @@ struct ExportPart {
 };
 
 // All surfaces, then all obstacles, in the order of the world. Throws check_failed naming the
-// surface that is no valid polygon.
-std::vector<ExportPart> export_parts(const World& world);
+// surface that is no valid polygon. With the option `merge` they are one part named "world", in the
+// colour of the first.
+std::vector<ExportPart> export_parts(const World& world, const ExportOptions& options = {});
+
+// The names that surfaces and obstacles have in every format.
+std::string name_of(const Surface& surface);
+std::string name_of(const Obstacle& obstacle);
+
+// What a file's name says of the place, for formats that name it; letters, digits, '.', '_' and '-'
+// are kept, all else becomes '_'.
+std::string safe_name(const std::filesystem::path& path);
 
 // The colour that stands for a kind where there is none from the scan.
 Color color_of(Kind kind);
+Color color_of(const Surface& surface);
 
 }  // namespace scanworld

@@ -12,8 +12,9 @@
 
 namespace scanworld {
 
-void write_ply_mesh(const std::filesystem::path& path, const World& world) {
-  const std::vector<ExportPart> parts = export_parts(world);
+void write_ply_mesh(const std::filesystem::path& path, const World& world,
+                    const ExportOptions& options) {
+  const std::vector<ExportPart> parts = export_parts(world, options);
   std::vector<double> vertices;
   std::string faces;
   std::size_t face_count = 0;

@@ -9,8 +9,9 @@
 
 namespace scanworld {
 
-void write_stl(const std::filesystem::path& path, const World& world) {
-  const std::vector<ExportPart> parts = export_parts(world);
+void write_stl(const std::filesystem::path& path, const World& world,
+               const ExportOptions& options) {
+  const std::vector<ExportPart> parts = export_parts(world, options);
   std::uint32_t triangles = 0;
   for (const ExportPart& part : parts)
     triangles += static_cast<std::uint32_t>(part.mesh.triangles.size());

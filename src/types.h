@@ -106,6 +106,13 @@ struct Mesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
+inline void append(Mesh& mesh, const Mesh& more) {
+  const int base = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const auto& t : more.triangles)
+    mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+}
+
 // How well the points of a scan carry a surface. All zero where there is no scan.
 struct Support {
   std::size_t points = 0;

@@ -40,7 +40,7 @@ TEST_CASE("build writes its folder with world, report and exports") {
   CHECK(contains(outcome.out, "6 surfaces (1 floor, 1 ceiling, 4 wall, 0 other) and 12 triangles"));
   CHECK(outcome.err.empty());
   for (const char* name : {"world.json", "report.json", "world.obj", "world.mtl", "world.stl",
-                           "world.glb", "labels.ply"})
+                           "world.glb", "world.bullet", "labels.ply"})
     CHECK(fs::exists(folder / "world" / name));
   CHECK(entries(folder / "world") == 7);
   CHECK(validate(read_world(folder / "world")).empty());

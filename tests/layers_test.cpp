@@ -50,7 +50,8 @@ const std::vector<std::pair<std::string, std::string>> kLibraries = {
     {"embree3/", "src/mesh_rays.cpp"},   {"boost/", "src/surface/choose_cells.cpp"},
     {"geos", "src/world/geos.cpp"},      {"libqhull", "src/world/solids.cpp"},
     {"zlib.h", "src/scan/file.cpp"},     {"liblzf/", "src/scan/pcd.cpp"},
-    {"toml", "apps/settings.cpp"},
+    {"toml", "apps/settings.cpp"},       {"tinyxml2.h", "exporters/xml.cpp"},
+    {"bt", "exporters/bullet.cpp"},      {"BulletCollision/", "exporters/bullet.cpp"},
 };
 
 struct Include {

@@ -20,12 +20,8 @@ RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>()) {
   Mesh& all = surfaces.mesh;
   for (std::size_t o = 0; o < world.obstacles.size(); ++o) {
     const Mesh solid = mesh_of(world.obstacles[o], world.frame);
-    const int base = static_cast<int>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), solid.vertices.begin(), solid.vertices.end());
-    for (const auto& t : solid.triangles) {
-      all.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-      impl_->owner.emplace_back(false, o);
-    }
+    append(all, solid);
+    impl_->owner.insert(impl_->owner.end(), solid.triangles.size(), {false, o});
   }
   impl_->rays.emplace(std::move(all));
 }

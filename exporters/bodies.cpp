@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bodies.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "parts.h"
+#include "world/solids.h"
+
+namespace scanworld {
+
+namespace {
+
+struct Placed {
+  Vec3 position;
+  Eigen::Quaterniond rotation;
+  std::variant<BoxShape, CylinderShape, ConvexShape> shape;
+};
+
+Placed placed(const OrientedBox& box) { return {box.center, box.rotation, BoxShape{box.size}}; }
+
+Placed placed(const Cylinder& cylinder, const Vec3& up) {
+  return {cylinder.center, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up),
+          CylinderShape{cylinder.radius, cylinder.height}};
+}
+
+// Vertices are kept relative to their mean, so that nothing is lost where they become float.
+Placed placed(Mesh mesh) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : mesh.vertices) mean += v;
+  mean /= static_cast<double>(mesh.vertices.size());
+  for (Vec3& v : mesh.vertices) v -= mean;
+  return {mean, Eigen::Quaterniond::Identity(), ConvexShape{std::move(mesh)}};
+}
+
+// A box that is at least so thick along the normal, grown away from it.
+OrientedBox thickened(OrientedBox box, const Vec3& normal, double thickness) {
+  const Mat3 axes = box.rotation.toRotationMatrix();
+  int axis = 0;
+  (axes.transpose() * normal).cwiseAbs().maxCoeff(&axis);
+  const double missing = thickness - box.size[axis];
+  if (missing <= 0) return box;
+  const Vec3 back = (axes.col(axis).dot(normal) > 0 ? -1 : 1) * axes.col(axis);
+  box.center += missing / 2 * back;
+  box.size[axis] = thickness;
+  return box;
+}
+
+ConvexPrism thickened(ConvexPrism prism, const Vec3& normal, double thickness) {
+  const double depth = prism.extrusion.norm();
+  if (depth >= thickness) return prism;
+  const Vec3 longer = prism.extrusion * (thickness / depth);
+  if (prism.extrusion.dot(normal) > 0)
+    for (Vec3& v : prism.base) v -= longer - prism.extrusion;
+  prism.extrusion = longer;
+  return prism;
+}
+
+}  // namespace
+
+std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& options) {
+  std::map<int, const Surface*> surface_of;
+  for (const Surface& s : world.surfaces) surface_of[s.id] = &s;
+
+  std::vector<ExportBody> bodies;
+  const auto add = [&](const std::string& name, bool is_obstacle, Color color, Placed solid) {
+    bodies.push_back({name, is_obstacle, color, solid.position, solid.rotation.normalized(),
+                      std::move(solid.shape)});
+  };
+  std::map<int, int> count;  // of the colliders that a surface has so far
+  for (const Collider& c : world.colliders) {
+    const Surface& s = *surface_of.at(c.surface);
+    const auto solid = [&](const auto& shape) {
+      const auto thick = thickened(shape, s.plane.normal, options.min_thickness);
+      if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, OrientedBox>)
+        return placed(thick);
+      else
+        return placed(mesh_of(thick));
+    };
+    add(fmt::format("{}_solid_{}", name_of(s), count[s.id]++), false, color_of(s),
+        std::visit(solid, c.shape));
+  }
+  for (const Obstacle& o : world.obstacles) {
+    const std::string name = name_of(o);
+    if (const auto* box = std::get_if<OrientedBox>(&o.shape))
+      add(name, true, color_of(Kind::other), placed(*box));
+    else if (const auto* cylinder = std::get_if<Cylinder>(&o.shape))
+      add(name, true, color_of(Kind::other), placed(*cylinder, world.frame.up));
+    else
+      add(name, true, color_of(Kind::other), placed(mesh_of(o, world.frame)));
+  }
+  return bodies;
+}
+
+std::string text_of(double number) {
+  const std::string text = fmt::format("{:.9g}", number);
+  return text == "-0" ? "0" : text;
+}
+
+std::string text_of(const Vec3& v) {
+  return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
+}
+
+std::string wxyz_text(const Eigen::Quaterniond& q) {
+  return text_of(q.w()) + " " + text_of(Vec3(q.vec()));
+}
+
+std::string rpy_text(const Eigen::Quaterniond& q) {
+  const Mat3 r = q.toRotationMatrix();
+  const double pitch = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
+  if (std::hypot(r(0, 0), r(1, 0)) > 1e-9)
+    return text_of(Vec3(std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0))));
+  return text_of(Vec3(std::atan2(-r(1, 2), r(1, 1)), pitch, 0));  // roll and yaw are one
+}
+
+Vec3 gravity_of(const World& world) { return -9.81 * world.frame.up; }
+
+}  // namespace scanworld

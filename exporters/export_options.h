@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "types.h"
+
+namespace scanworld {
+
+// The most that an engine takes; 0 where it takes any number.
+struct ExportBudget {
+  std::size_t faces = 0;          // triangles to be seen
+  std::size_t solids = 0;         // to collide with
+  std::size_t hulls = 0;          // of these, that are neither boxes nor cylinders
+  std::size_t hull_vertices = 0;  // of each such
+};
+
+// Sets caps from "solids=64,hull_vertices=60". Throws usage naming what is no cap or number.
+ExportBudget budget_from(const std::string& text);
+
+struct ExportOptions {
+  double friction = 0.8;       // of all solids (Coulomb); rubber on a dry floor
+  double min_thickness = 0;    // [m] thinner solids grow away from the free side
+  Vec3 origin = Vec3::Zero();  // [m] the point of the world that is to be the file's origin
+  bool level = false;          // turn the world upright, so that up is +Z
+  bool y_up = false;           // for formats that do not say which axis is up, or let one choose
+  bool color_by_kind = false;  // instead of the scan's colours
+  bool merge = false;          // all that is seen in one mesh, for engines that trace rays in one
+  bool physics = false;        // glTF: with the solids, by extensions that are drafts
+  ExportBudget budget;
+};
+
+}  // namespace scanworld
