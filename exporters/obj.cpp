@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "bodies.h"
 #include "files.h"
 #include "parts.h"
 
@@ -33,22 +34,39 @@ std::string frame_comment(const Frame& frame) {
   return text + "\n";
 }
 
-// A mesh as an object whose first vertex has the number `base`.
+// How many vertices and normals were written so far.
+struct Count {
+  int vertices = 0, normals = 0;
+};
+
+// A mesh as an object. Faces have normals, as DART leaves out what has none.
 std::string object_text(const std::string& name, const std::string& material, const Mesh& mesh,
-                        int base) {
-  std::string obj = fmt::format("o {}\n", name);
+                        Count& count) {
+  std::string obj = fmt::format("o {}\n", name), normals, faces;
   if (!material.empty()) obj += fmt::format("usemtl {}\n", material);
   for (const Vec3& v : mesh.vertices)
     obj += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
-  for (const auto& t : mesh.triangles)
-    obj += fmt::format("f {} {} {}\n", t[0] + base, t[1] + base, t[2] + base);
-  return obj;
+  std::string last;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    const Vec3 n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+    const std::string normal =
+        "vn " + text_of(n.unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; })) + "\n";
+    if (normal != last) normals += last = normal, ++count.normals;
+    const auto corner = [&](int v) {
+      return fmt::format(" {}//{}", v + 1 + count.vertices, count.normals);
+    };
+    faces += "f" + corner(t[0]) + corner(t[1]) + corner(t[2]) + "\n";
+  }
+  count.vertices += static_cast<int>(mesh.vertices.size());
+  return obj + normals + faces;
 }
 
 }  // namespace
 
 std::string obj_text(const std::string& name, const Mesh& mesh) {
-  return object_text(name, "", mesh, 1);
+  Count none;
+  return object_text(name, "", mesh, none);
 }
 
 void write_obj(const std::filesystem::path& path, const World& world,
@@ -65,11 +83,9 @@ void write_obj(const std::filesystem::path& path, const World& world,
 
   std::string obj = frame_comment(world.frame);
   obj += fmt::format("mtllib {}\n", mtl_path.filename().string());
-  int base = 1;
-  for (const ExportPart& part : parts) {
-    obj += object_text(part.name, material_name(part), part.mesh, base);
-    base += static_cast<int>(part.mesh.vertices.size());
-  }
+  Count count;
+  for (const ExportPart& part : parts)
+    obj += object_text(part.name, material_name(part), part.mesh, count);
 
   OutputFile mtl_file(mtl_path), obj_file(path);
   mtl_file.write(mtl);

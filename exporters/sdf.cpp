@@ -80,7 +80,7 @@ XmlElement world_sdf(const std::string& name, const std::string& model, const Wo
   return {"sdf",
           {{"version", "1.7"}},
           {{"world",
-            {{"name", name}},
+            {{"name", name + "_world"}},  // the name "world" is reserved
             {text_element("gravity", text_of(gravity_of(world))),
              sun,
              {"include", {}, {text_element("uri", "model://" + model)}, ""}},

@@ -42,7 +42,7 @@ TEST_CASE("build writes its folder with world, report and exports") {
   for (const char* name : {"world.json", "report.json", "world.obj", "world.mtl", "world.stl",
                            "world.glb", "world.bullet", "labels.ply"})
     CHECK(fs::exists(folder / "world" / name));
-  CHECK(entries(folder / "world") == 7);
+  CHECK(entries(folder / "world") == 8);
   CHECK(validate(read_world(folder / "world")).empty());
   CHECK(entries(folder.path()) == 2);
 

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exporters/export.h"
 
+#include <cstring>
+#include <nlohmann/json.hpp>
+
 #include "exporters/assimp.h"
+#include "exporters/bodies.h"
 #include "support/scenes.h"
 #include "world/solids.h"
 #include "world/triangulate.h"
@@ -140,8 +144,42 @@ TEST_CASE("GLB passes the validator of Khronos without error and warning") {
   add("full", full_world());
   for (const char* name : {"room", "office", "stairs"})
     add(name, read_world(in_project(std::string("worlds/") + name + ".json")));
+  export_world(read_world(in_project("worlds/office.json")), folder / "solid.glb",
+               {.physics = true});
+  command.push_back((folder / "solid.glb").string());
   const Outcome outcome = run_program(command);
   CHECK_MESSAGE(outcome.code == 0, outcome.out << outcome.err);
+}
+
+TEST_CASE("GLB with physics has a static collider for every solid, and none without") {
+  const TempFolder folder;
+  const World world = read_world(in_project("worlds/office.json"));
+  const auto json_of = [&](const ExportOptions& options) {
+    export_world(world, folder / "w.glb", options);
+    const std::string bytes = read_file(folder / "w.glb");
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + 12, 4);
+    return nlohmann::json::parse(bytes.substr(20, size));
+  };
+  CHECK_FALSE(json_of({}).contains("extensionsUsed"));
+  const nlohmann::json gltf = json_of({.friction = 0.4, .physics = true});
+  std::size_t colliders = 0;
+  for (const auto& node : gltf["nodes"]) {
+    if (!node.contains("extensions")) continue;
+    const auto& body = node["extensions"]["KHR_physics_rigid_bodies"];
+    CHECK_FALSE(body.contains("motion"));
+    const auto& geometry = body["collider"]["geometry"];
+    CHECK(geometry.contains("shape") != geometry.contains("node"));
+    if (geometry.contains("shape"))
+      CHECK(geometry["shape"].get<std::size_t>() <
+            gltf["extensions"]["KHR_implicit_shapes"]["shapes"].size());
+    else
+      CHECK(gltf["nodes"][geometry["node"].get<std::size_t>()].contains("mesh"));
+    ++colliders;
+  }
+  CHECK(colliders == export_bodies(prepare_export(world, {}), {}).size());
+  CHECK(gltf["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"][0]["staticFriction"] ==
+        0.4);
 }
 
 TEST_CASE(

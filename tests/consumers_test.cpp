@@ -1,0 +1,399 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exported worlds, as the engines see them that they are written for (tests/consumers/).
+#include <sstream>
+
+#include "exporters/assimp.h"
+#include "exporters/bodies.h"
+#include "exporters/export.h"
+#include "exporters/parts.h"
+#include "mesh_rays.h"
+#include "support/scenes.h"
+#include "world/level.h"
+#include "world/ray_scene.h"
+#include "world/solids.h"
+#include "world/triangulate.h"
+#include "world/world_json.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+
+namespace {
+
+const std::vector<std::string> kPlaces = {"room", "office", "stairs"};
+
+World place(const std::string& name) { return read_world(in_project("worlds/" + name + ".json")); }
+
+World scaled(World world, double factor) {
+  for (Vec3& v : world.vertices) v *= factor;
+  for (Surface& s : world.surfaces) s.plane.offset *= factor;
+  return world;
+}
+
+// Engines have round cylinders, where our rays meet 24 flat faces.
+World without_cylinders(World world) {
+  std::erase_if(world.obstacles,
+                [](const Obstacle& o) { return std::holds_alternative<Cylinder>(o.shape); });
+  return world;
+}
+
+// A consumer, and the format that it takes.
+struct Engine {
+  std::string name, program, extension;
+};
+const Engine kBullet = {"Bullet", "bullet_consumer", "bullet"},
+             kBullet64 = {"Bullet in double precision", "bullet64_consumer", "bullet"},
+             kMuJoCo = {"MuJoCo", "mujoco_consumer", "xml"},
+             kMuJoCo3 = {"MuJoCo 3", "mujoco_consumer.mjs", "xml"},
+             kDart = {"SDF in DART", "sdf_consumer", "sdf"},
+             kUrdf = {"urdfdom", "urdf_consumer", "urdf"};
+
+std::filesystem::path node_script(const std::string& name) {
+  return in_project("tests/node/" + name);
+}
+
+// Whether the packages of tests/node/ are installed; says so where they are not.
+bool has_node_packages() {
+  const bool installed = std::filesystem::exists(node_script("node_modules/mujoco-js"));
+  if (!installed) MESSAGE("skipped: no packages from npm; './dev test' installs them");
+  return installed;
+}
+
+// The engines of these that can be had here.
+std::vector<Engine> present(std::vector<Engine> engines) {
+  if (!has_node_packages())
+    std::erase_if(engines, [](const Engine& e) { return e.program == kMuJoCo3.program; });
+  return engines;
+}
+
+// What an engine answers to orders about a file, line by line.
+std::vector<std::string> ask(const Engine& engine, const std::filesystem::path& file,
+                             const std::string& orders) {
+  const TempFolder folder;
+  const auto path = write_file(folder / "orders", orders);
+  const bool is_script = engine.program.ends_with(".mjs");
+  const auto program = is_script ? node_script(engine.program)
+                                 : std::filesystem::path(SCANWORLD_CONSUMERS) / engine.program;
+  std::vector<std::string> command = {program.string(), file.string(), path.string()};
+  if (is_script) command.insert(command.begin(), "node");
+  const Outcome outcome = run_program(command);
+  CHECK_MESSAGE(outcome.code == 0, engine.name << ": " << outcome.err);
+  std::vector<std::string> lines;
+  std::istringstream in(outcome.out);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string text(const Vec3& v) { return text_of(v); }
+
+std::vector<double> numbers_in(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<double>(in), {}};
+}
+
+struct Ray {
+  Vec3 from, direction;
+};
+
+bool is_floor(const World& world, const Hit& hit) {
+  if (!hit.is_surface) return false;
+  const Surface& s = world.surfaces[hit.index];
+  return s.kind == Kind::floor && s.plane.normal.dot(world.frame.up) > 0.9999;
+}
+
+// Whether what a ray meets is the free side of it, and no cupboard from within.
+bool meets_front(const World& world, const RayScene& scene, const Ray& ray) {
+  const auto hit = scene.cast(ray.from, ray.direction);
+  return !hit || !hit->is_surface || world.surfaces[hit->index].plane.normal.dot(ray.direction) < 0;
+}
+
+// The height over the floor of a point in free space with a level floor below and nothing within
+// 20 cm.
+std::optional<double> height_over_floor(const World& world, const RayScene& scene, const Vec3& p) {
+  if (scene.nearest(p, 0.2)) return std::nullopt;
+  for (int k = 0; k < 3; ++k)
+    for (double sign : {-1, 1})
+      if (!meets_front(world, scene, {p, sign * Vec3::Unit(k)})) return std::nullopt;
+  const auto hit = scene.cast(p, -world.frame.up);
+  return hit && is_floor(world, *hit) ? std::optional(hit->distance) : std::nullopt;
+}
+
+// Places in free space, over floors.
+std::vector<Vec3> free_places(const World& world, const RayScene& scene, std::size_t count,
+                              std::uint64_t seed) {
+  Random random(seed);
+  const Box3 box = bounds(world);
+  std::vector<Vec3> places;
+  while (places.size() < count) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = random.uniform(box.min()[k], box.max()[k]);
+    const auto height = height_over_floor(world, scene, p);
+    if (height && *height < 2) places.push_back(p);
+  }
+  return places;
+}
+
+std::vector<Ray> free_rays(const World& world, const RayScene& scene, std::size_t count) {
+  Random random(11);
+  std::vector<Ray> rays;
+  for (const Vec3& p : free_places(world, scene, count, 7)) {
+    Ray ray{p, random.direction()};
+    while (!meets_front(world, scene, ray)) ray.direction = random.direction();
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+std::string orders_of(const std::vector<Ray>& rays) {
+  std::string orders;
+  for (const Ray& r : rays) orders += "ray " + text(r.from) + " " + text(r.direction) + "\n";
+  return orders;
+}
+
+// The share of rays whose depth in an engine is that of the world to 2 mm.
+double share_alike(const RayScene& scene, const std::vector<Ray>& rays,
+                   const std::vector<double>& depths) {
+  REQUIRE(depths.size() == rays.size());
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto hit = scene.cast(rays[i].from, rays[i].direction);
+    alike += std::abs((hit ? hit->distance : -1) - depths[i]) < 0.002;
+  }
+  return static_cast<double>(alike) / static_cast<double>(rays.size());
+}
+
+std::vector<double> depths_in(const Engine& engine, const std::filesystem::path& file,
+                              const std::vector<Ray>& rays) {
+  std::vector<double> depths;
+  for (const std::string& line : ask(engine, file, orders_of(rays)))
+    depths.push_back(numbers_in(line).at(0));
+  return depths;
+}
+
+// A door, from one side of the wall to the other.
+struct Doorway {
+  int id;
+  Vec3 middle, normal, along;
+  double width, height;
+};
+
+std::vector<Doorway> doorways(const World& world) {
+  std::vector<Doorway> all;
+  for (const Opening& o : world.openings) {
+    if (o.kind == OpeningKind::window) continue;
+    const auto s = std::find_if(world.surfaces.begin(), world.surfaces.end(),
+                                [&](const Surface& surface) { return surface.id == o.surface; });
+    Box3 box;
+    for (int v : o.loop) box.extend(world.vertices[static_cast<std::size_t>(v)]);
+    const Vec3 along = s->plane.normal.cross(world.frame.up).normalized();
+    all.push_back({o.id, box.center(), s->plane.normal, along, o.width, o.height});
+  }
+  return all;
+}
+
+// What a robot that is 10 cm smaller than the door does to get from 60 cm before it to 60 cm
+// behind, 5 cm over the floor.
+std::string sweep_order(const Doorway& door) {
+  const Vec3 size(0.4, door.width - 0.1, std::min(door.height, 1.8) - 0.1);
+  const Vec3 middle = door.middle + Vec3(0, 0, 0.05 + size.z() / 2 - door.height / 2);
+  return "sweep " + text(middle + 0.6 * door.normal) + " " + text(middle - 0.6 * door.normal) +
+         " " + text(size) + " " + text_of(std::atan2(door.normal.y(), door.normal.x())) + "\n";
+}
+
+// Rays through a door, on a grid over it.
+std::vector<Ray> rays_through(const Doorway& door) {
+  std::vector<Ray> rays;
+  for (double u : {-0.45, -0.2, 0.0, 0.2, 0.45})
+    for (double v : {-0.45, 0.0, 0.45})
+      rays.push_back({door.middle + u * door.width * door.along + v * door.height * Vec3::UnitZ() +
+                          0.3 * door.normal,
+                      -door.normal});
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("the same rays meet the world at the same depth in every engine") {
+  for (const std::string& name : kPlaces) {
+    const World world = without_cylinders(place(name));
+    const RayScene scene(world);
+    const std::vector<Ray> rays = free_rays(world, scene, 1000);
+    const TempFolder folder;
+    for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+      const auto file = folder / ("world." + engine.extension);
+      export_world(world, file);
+      const double share = share_alike(scene, rays, depths_in(engine, file, rays));
+      CHECK_MESSAGE(share == 1, name << " in " << engine.name);
+    }
+    export_world(world, folder / "world.stl");
+    const MeshRays stl(read_mesh(folder / "world.stl"));
+    std::vector<double> depths;
+    for (const Ray& r : rays) {
+      const auto hit = stl.cast(r.from, r.direction);
+      depths.push_back(hit ? hit->distance : -1);
+    }
+    CHECK_MESSAGE(share_alike(scene, rays, depths) == 1, name << " in STL");
+  }
+}
+
+TEST_CASE("rays pass through every door, in every engine as in the world") {
+  for (const std::string& name : kPlaces) {
+    const World world = place(name);
+    const RayScene scene(world);
+    std::vector<Ray> rays;
+    for (const Doorway& door : doorways(world))
+      for (const Ray& ray : rays_through(door)) {
+        CHECK_MESSAGE(scene.is_free(ray.from, ray.from + 0.6 * ray.direction),
+                      name << " " << door.id);
+        rays.push_back(ray);
+      }
+    const TempFolder folder;
+    for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+      const auto file = folder / ("world." + engine.extension);
+      export_world(world, file);
+      for (double depth : depths_in(engine, file, rays))
+        CHECK_MESSAGE((depth < 0 || depth > 0.6), name << " in " << engine.name);
+    }
+  }
+}
+
+TEST_CASE("a robot that fits gets through every door, and not through the wall beside it") {
+  for (const std::string name : {"office", "stairs"}) {
+    const World world = place(name);
+    std::string orders;
+    const auto doors = doorways(world);
+    REQUIRE(!doors.empty());
+    for (Doorway door : doors) {
+      orders += sweep_order(door);
+      door.middle += 0.5 * door.width * door.along;
+      orders += sweep_order(door);
+    }
+    const TempFolder folder;
+    for (const Engine& engine : {kBullet, kMuJoCo}) {
+      const auto file = folder / ("world." + engine.extension);
+      export_world(world, file);
+      const std::vector<std::string> answers = ask(engine, file, orders);
+      REQUIRE(answers.size() == 2 * doors.size());
+      for (std::size_t i = 0; i < doors.size(); ++i) {
+        CHECK_MESSAGE(answers[2 * i] == "free",
+                      name << " " << doors[i].id << " in " << engine.name);
+        CHECK_MESSAGE(answers[2 * i + 1] == "blocked",
+                      name << " " << doors[i].id << " in " << engine.name);
+      }
+    }
+  }
+}
+
+TEST_CASE("balls that are dropped all over a place come to rest on its floor") {
+  const double radius = 0.1, seconds = 3;
+  for (const std::string& name : kPlaces) {
+    const World world = place(name);
+    const RayScene scene(world);
+    const std::vector<Vec3> from = free_places(world, scene, 20, 3);
+    std::string orders = "drop " + text_of(radius) + " " + text_of(seconds);
+    for (const Vec3& p : from) orders += " " + text(p);
+    const TempFolder folder;
+    for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart})) {
+      const auto file = folder / ("world." + engine.extension);
+      export_world(world, file);
+      const auto lines = ask(engine, file, orders + "\n");
+      REQUIRE(lines.size() == 1);
+      const std::vector<double> ends = numbers_in(lines[0]);
+      REQUIRE(ends.size() == 3 * from.size());
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vec3 end(ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]);
+        const auto hit = scene.cast(end, -world.frame.up);
+        CHECK_MESSAGE((hit && is_floor(world, *hit) && std::abs(hit->distance - radius) < 0.01),
+                      name << " in " << engine.name << " from " << text(from[i]));
+      }
+    }
+  }
+}
+
+TEST_CASE("solids have the same names in every engine, and gravity is against the world's up") {
+  World world = place("office");
+  world = moved(world, Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vec3::UnitX())), Vec3::Zero());
+  std::string expected;
+  for (const ExportBody& body : export_bodies(prepare_export(world, {}), {}))
+    expected += body.name + " ";
+  const TempFolder folder;
+  for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+    const auto file = folder / ("world." + engine.extension);
+    export_world(world, file);
+    CHECK_MESSAGE(ask(engine, file, "names\n") == std::vector{expected}, engine.name);
+    if (engine.name == kUrdf.name) continue;  // has no gravity
+    const auto answers = ask(engine, file, "gravity\n");
+    REQUIRE(answers.size() == 1);
+    const std::vector<double> g = numbers_in(answers[0]);
+    CHECK((Vec3(g[0], g[1], g[2]) + 9.81 * world.frame.up).norm() < 1e-4);
+  }
+}
+
+TEST_CASE("an exported folder works after it was moved, also with odd characters in its name") {
+  const World world = place("office");
+  const RayScene scene(world);
+  const std::vector<Ray> rays = free_rays(world, scene, 20);
+  const TempFolder folder;
+  const auto moved_to = folder / "a \"place\" & <more> \u00fc";
+  CHECK(export_all(world, folder / "all").empty());
+  std::filesystem::rename(folder / "all", moved_to);
+  for (const Engine& engine : present({kBullet, kMuJoCo, kMuJoCo3, kDart, kUrdf}))
+    CHECK_MESSAGE(ask(engine, moved_to / ("world." + engine.extension), orders_of(rays)).size() ==
+                      rays.size(),
+                  engine.name);
+  CHECK(read_mesh(moved_to / "world.obj").triangles.size() > 0);
+}
+
+TEST_CASE("file names with odd characters are written so that engines load them") {
+  for (const Engine& engine : present({kBullet, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+    const TempFolder folder;
+    const auto file = folder / ("3 rooms & \"more\" <of> \u00fc." + engine.extension);
+    export_world(small_world(), file);
+    CHECK_MESSAGE(ask(engine, file, "names\n").size() == 1, engine.name);
+  }
+}
+
+TEST_CASE("an empty world and a world five kilometres wide load in every engine") {
+  const World one = small_world(), wide = scaled(one, 1250);
+  for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+    const TempFolder folder;
+    const auto names = [&](const World& world, const std::string& name) {
+      const auto file = folder / (name + "." + engine.extension);
+      export_world(world, file);
+      return ask(engine, file, "names\n");
+    };
+    CHECK_MESSAGE(names({}, "empty").size() == 1, engine.name);
+    CHECK_MESSAGE(names(one, "one") == names(wide, "wide"), engine.name);
+  }
+}
+
+TEST_CASE("three.js finds every surface and obstacle in GLB and USD, by name, size and place") {
+  if (!has_node_packages()) return;
+  for (const std::string& name : kPlaces) {
+    const World world = place(name);
+    for (const char* extension : {"glb", "usda"}) {
+      const TempFolder folder;
+      const auto file = folder / (std::string("world.") + extension);
+      export_world(world, file);
+      const Outcome outcome =
+          run_program({"node", node_script("read_with_three.mjs").string(), file.string()});
+      CHECK_MESSAGE(outcome.code == 0, outcome.err);
+      std::istringstream lines(outcome.out);
+      for (const ExportPart& part : export_parts(world)) {
+        std::string line;
+        REQUIRE(std::getline(lines, line));
+        const std::size_t blank = line.find(' ');
+        CHECK(line.substr(0, blank) == part.name);
+        const std::vector<double> n = numbers_in(line.substr(blank));
+        REQUIRE(n.size() == 8);
+        CHECK(n[0] == static_cast<double>(part.mesh.triangles.size()));
+        CHECK(n[1] == doctest::Approx(area_of(part.mesh)).scale(0).epsilon(1e-4));
+        Box3 box;
+        for (const Vec3& v : part.mesh.vertices) box.extend(Vec3(v.x(), v.z(), -v.y()));
+        CHECK((Vec3(n[2], n[3], n[4]) - box.min()).norm() < 1e-4);
+        CHECK((Vec3(n[5], n[6], n[7]) - box.max()).norm() < 1e-4);
+      }
+    }
+  }
+}
