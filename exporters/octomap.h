@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "world/world.h"
+
+namespace scanworld {
+
+struct OctomapOptions {
+  double resolution = 0.05;  // [m] edge of the smallest cells
+  bool glass = true;         // panes are occupied: a robot does not go through them; a lidar would
+};
+
+// Writes a world as an OctoMap, metres, in the world's frame: `.bt`, or `.ot` where the extension
+// says so.
+//
+// Occupied is every cell that a surface, a pane of glass or an obstacle touches, and the inside of
+// obstacles. Of the others those are free that the front of a surface faces, with nothing between,
+// within the bounds of the world (rounded out to 16 cells). All else is unknown: the inside of
+// walls, what is behind surfaces, and outside.
+//
+// Throws usage naming the file, the value and what would do, where the world is too large for the
+// resolution: for the tree, or for more than some 500 million cells.
+void write_octomap(const std::filesystem::path& path, const World& world,
+                   const OctomapOptions& options = {});
+
+}  // namespace scanworld
