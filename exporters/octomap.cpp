@@ -227,10 +227,8 @@ class WorldTree {
 void check_size(const std::filesystem::path& path, const World& world, double resolution) {
   const Box3 box = bounds(world);
   if (box.isEmpty()) return;
-  check_reach(
-      path,
-      box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() + kKnownStep * resolution,
-      resolution);
+  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  check_octree_reach(path.string(), reach + kKnownStep * resolution, resolution);
   double total = 0;
   for (const Surface& s : world.surfaces) total += area(world, s);
   const double cells = total / (resolution * resolution);

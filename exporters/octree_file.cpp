@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
-#include "error.h"
 #include "files.h"
 #include "occupancy_grid.h"
 
@@ -41,22 +39,6 @@ constexpr std::size_t kBinaryHead = 2;                   // bytes: two bits a ch
 constexpr std::size_t kLogOddsHead = sizeof(float) + 1;  // bytes: the value, and a bit a child
 
 }  // namespace
-
-double resolution_for(double reach) {
-  const double least = reach / (kOctreeCells / 2 - 1);
-  const double digit = std::pow(10, std::floor(std::log10(least)) - 1);
-  return std::ceil(least / digit) * digit;
-}
-
-void check_reach(const std::filesystem::path& path, double reach, double resolution) {
-  if (reach <= resolution * (kOctreeCells / 2 - 1)) return;
-  throw Error(
-      Cause::usage,
-      fmt::format("{}: coordinates reach {:.1f} m, but the {} levels of an OctoMap of {} m cells "
-                  "only {:.1f} m; a resolution of {:.2g} m would do",
-                  path.string(), reach, kOctreeDepth, resolution, resolution * (kOctreeCells / 2),
-                  resolution_for(reach)));
-}
 
 OctreeKind octree_kind(const std::filesystem::path& path) {
   return lower_extension(path) == ".ot" ? OctreeKind::log_odds : OctreeKind::binary;

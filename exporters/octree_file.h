@@ -9,19 +9,7 @@
 
 namespace scanworld {
 
-// OctoMap's octree: its cells are counted from -2^15 to 2^15 - 1 along each axis, cell 0 begins at
-// 0 (Hornung et al. 2013; the files are those of liboctomap 1.9).
-constexpr int kOctreeDepth = 16;
-constexpr int kOctreeCells = 1 << kOctreeDepth;  // along each axis
-
-// The smallest resolution [m], to two digits, at which all coordinates up to `reach` [m] are in the
-// tree.
-double resolution_for(double reach);
-
-// Throws usage naming file and values where coordinates up to `reach` [m] are not in the tree.
-void check_reach(const std::filesystem::path& path, double reach, double resolution);
-
-// The two kinds of file.
+// The two kinds of file of OctoMap (those of liboctomap 1.9).
 enum class OctreeKind {
   binary,   // .bt: a leaf is free or occupied
   log_odds  // .ot: every node has the logarithm of its odds to be occupied; inner ones the greatest

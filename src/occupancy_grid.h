@@ -5,25 +5,82 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "types.h"
 
 namespace scanworld {
 
-// The logarithm of the odds of a probability.
+// The cells of an OctoMap are those of a tree of 16 levels: from -2^15 to 2^15 - 1 along each axis.
+// Cell 0 begins at 0.
+constexpr int kOctreeDepth = 16;
+constexpr int kOctreeCells = 1 << kOctreeDepth;
+
+// Throws usage where coordinates up to `reach` [m] are not in the tree, with the resolution that
+// would do; `name` is of the file or scan.
+void check_octree_reach(const std::string& name, double reach, double resolution);
+
+// Of a probability.
 inline float log_odds_of(double probability) {
   return static_cast<float>(std::log(probability / (1 - probability)));
 }
 
-// The sensor model of Hornung et al., OctoMap (2013), with the values of their library.
+// The sensor model of OctoMap, with the values of its library (Hornung et al. 2013).
 struct OccupancyOptions {
   double resolution = 0.1;     // [m] edge of a cell
-  double hit = 0.7;            // probability that a cell is occupied which a point is in
-  double miss = 0.4;           // and one that is looked through
-  double lowest = 0.1192;      // what all probabilities are kept above ...
-  double highest = 0.971;      // ... and below
-  std::size_t min_points = 1;  // a cell with fewer points has none
+  double hit = 0.7;            // probability that a cell is occupied that a point is in ...
+  double miss = 0.4;           // ... and one that was looked through
+  double lowest = 0.1192;      // what no probability falls below ...
+  double highest = 0.971;      // ... or rises above
+  std::size_t min_points = 1;  // a cell with fewer points counts as one without
 };
+
+// How likely the cells of space are occupied. Only blocks of cells of which something is known are
+// kept.
+struct OccupancyGrid {
+  static constexpr int kBlock = 8;  // cells along each edge of a block
+
+  struct Cell {
+    std::uint16_t hits = 0;    // points in it
+    std::uint16_t misses = 0;  // viewpoints that looked through it and saw no point in it
+    bool is_known() const { return hits > 0 || misses > 0; }
+    bool operator==(const Cell&) const = default;
+  };
+  // Names and cells are in Morton order: bits of x, y and z in turn, x lowest.
+  struct Block {
+    std::uint64_t key;
+    std::array<Cell, kBlock * kBlock * kBlock> cells;
+    bool operator==(const Block&) const = default;
+  };
+
+  OccupancyOptions options;
+  std::vector<Block> blocks;  // by ascending key
+
+  // The cell that a point is in.
+  Eigen::Vector3i cell_of(const Vec3& p) const {
+    return (p / options.resolution).array().floor().cast<int>();
+  }
+  Cell at(const Eigen::Vector3i& cell) const;
+
+  // Of a cell of which something is known: the sum over its hits and misses, kept between the
+  // bounds.
+  float log_odds(const Cell& cell) const;
+  // That a cell is occupied; 0.5 where nothing is known.
+  double probability(const Eigen::Vector3i& cell) const;
+};
+
+// The grid of a scan, in its coordinates as stored. Every point is a hit in its cell. All cells on
+// the way from a viewpoint to the middle of a cell with points that it saw were looked through. Of
+// many viewpoints that is the nearest one, of the four nearest, that no other cell with points
+// hides it from, beyond those that it adjoins; where there is none, as with strays behind walls,
+// none. Without viewpoints there are only hits.
+//
+// OctoMap adds up scan by scan and bounds each sum, which depends on their order; here sums of
+// whole counts are bounded once. A viewpoint counts once a cell, however many of its rays pass
+// there, and not where it saw a point: else walls that are looked along would fade. Depends neither
+// on the order of the points nor on threads. Throws usage where an option is out of range or the
+// scan is too large for 2^16 cells.
+OccupancyGrid make_occupancy_grid(const PointCloud& cloud, const OccupancyOptions& options = {});
 
 }  // namespace scanworld

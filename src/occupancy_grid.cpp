@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "occupancy_grid.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+#include <unordered_map>
+
+#include "cell_walk.h"
+#include "error.h"
+#include "parallel.h"
+
+namespace scanworld {
+
+namespace {
+
+using CellIndex = Eigen::Vector3i;
+constexpr std::size_t kBlockCells = std::tuple_size_v<decltype(OccupancyGrid::Block::cells)>;
+constexpr int kBlockBits = 9;  // of a cell's Morton code, within its block
+static_assert(kBlockCells == 1 << kBlockBits);
+
+constexpr std::size_t kNearestViewpoints = 4;  // that may have seen a cell
+constexpr std::size_t kRaysPerPart = 4096;
+
+constexpr auto kNobody = std::numeric_limits<std::size_t>::max();
+
+// A cell with points.
+struct SeenCell {
+  std::uint64_t code;  // Morton
+  std::size_t points;
+  std::size_t viewer = kNobody;  // index of the viewpoint that saw it
+};
+
+// Some cells, as bits of their blocks.
+class CellSet {
+ public:
+  struct Block {
+    std::uint64_t key;
+    std::array<std::uint64_t, kBlockCells / 64> bits{};
+  };
+
+  void insert(std::uint64_t code) {
+    Block& block = block_of(code >> kBlockBits);
+    const std::uint64_t cell = code & (kBlockCells - 1);
+    block.bits[cell / 64] |= std::uint64_t{1} << cell % 64;
+  }
+  const Block* find(std::uint64_t key) const {
+    const auto found = index_.find(key);
+    return found == index_.end() ? nullptr : &blocks_[found->second];
+  }
+  static bool contains(const Block& block, std::uint64_t code) {
+    const std::uint64_t cell = code & (kBlockCells - 1);
+    return (block.bits[cell / 64] >> cell % 64 & 1) != 0;
+  }
+  std::vector<Block> take_blocks() { return std::move(blocks_); }
+
+ private:
+  Block& block_of(std::uint64_t key) {
+    if (blocks_.empty() || blocks_[last_].key != key) {
+      const auto [found, is_new] = index_.try_emplace(key, blocks_.size());
+      if (is_new) blocks_.push_back({.key = key});
+      last_ = found->second;
+    }
+    return blocks_[last_];
+  }
+
+  std::vector<Block> blocks_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::size_t last_ = 0;
+};
+
+// What one viewpoint looked through, of one block.
+struct Glance {
+  std::size_t viewer;
+  CellSet::Block block;
+};
+
+void check(const PointCloud& cloud, const OccupancyOptions& o) {
+  const auto is_share = [](double p) { return p > 0 && p < 1; };
+  if (!(o.resolution > 0) || !(is_share(o.hit) && o.hit >= 0.5) ||
+      !(is_share(o.miss) && o.miss <= 0.5) || !is_share(o.lowest) || !is_share(o.highest) ||
+      o.lowest > o.highest || o.min_points == 0)
+    throw Error(Cause::usage,
+                fmt::format("an occupancy grid of {} m cells, hit {}, miss {}, between {} and {}, "
+                            "at least {} points: a value is out of range",
+                            o.resolution, o.hit, o.miss, o.lowest, o.highest, o.min_points));
+  double reach = 0;
+  for (const Vec3f& p : cloud.points)
+    reach = std::max(reach, static_cast<double>(p.cwiseAbs().maxCoeff()));
+  for (const Vec3& v : cloud.viewpoints) reach = std::max(reach, v.cwiseAbs().maxCoeff());
+  check_octree_reach("the scan", reach, o.resolution);
+}
+
+// The cells with points, by ascending code.
+std::vector<SeenCell> find_seen(const PointCloud& cloud, const OccupancyGrid& grid) {
+  std::vector<std::uint64_t> codes(cloud.points.size());
+  parallel_for(part_count(codes.size(), kPointsPerPart), [&](std::size_t i) {
+    const auto [begin, end] = part_of(i, codes.size(), kPointsPerPart);
+    for (std::size_t k = begin; k < end; ++k)
+      codes[k] = morton_of(grid.cell_of(cloud.points[k].cast<double>()));
+  });
+  parallel_sort(codes);
+  std::vector<SeenCell> seen;
+  for (std::size_t i = 0, next = 0; i < codes.size(); i = next) {
+    while (next < codes.size() && codes[next] == codes[i]) ++next;
+    if (next - i >= grid.options.min_points) seen.push_back({codes[i], next - i});
+  }
+  return seen;
+}
+
+// Whether something stands between a cell and a viewpoint. The surface that the cell is of is left
+// first, over two cells at least: where it is looked along, cells of it are on the way.
+bool is_hidden(const SeenCell& cell, const CellIndex& viewpoint, const CellSet& opaque) {
+  int gap = 0;
+  bool has_left = false, meets = false;
+  std::uint64_t key = ~std::uint64_t{0};
+  const CellSet::Block* block = nullptr;
+  walk_cells(cell_at(cell.code).cast<double>() + Vec3::Constant(0.5), viewpoint,
+             [&](std::uint64_t code) {
+               if (code >> kBlockBits != key) key = code >> kBlockBits, block = opaque.find(key);
+               const bool is_opaque = block && CellSet::contains(*block, code);
+               gap = is_opaque ? 0 : gap + 1;
+               has_left = has_left || gap == 2;
+               meets = is_opaque && has_left;
+               return !meets;
+             });
+  return meets;
+}
+
+void find_viewers(std::vector<SeenCell>& cells, const PointCloud& cloud,
+                  const OccupancyGrid& grid) {
+  if (cloud.viewpoints.size() == 1)
+    for (SeenCell& cell : cells) cell.viewer = 0;
+  if (cloud.viewpoints.size() < 2) return;
+  CellSet opaque;
+  for (const SeenCell& cell : cells)
+    if (cell.points > 1) opaque.insert(cell.code);  // a single point may be a stray
+  parallel_for(part_count(cells.size(), kRaysPerPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, cells.size(), kRaysPerPart);
+    std::vector<std::pair<double, std::size_t>> by_distance(cloud.viewpoints.size());
+    const std::size_t candidates = std::min(by_distance.size(), kNearestViewpoints);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 middle =
+          (cell_at(cells[i].code).cast<double>() + Vec3::Constant(0.5)) * grid.options.resolution;
+      for (std::size_t v = 0; v < by_distance.size(); ++v)
+        by_distance[v] = {(cloud.viewpoints[v] - middle).squaredNorm(), v};
+      const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(candidates);
+      std::partial_sort(by_distance.begin(), last, by_distance.end());
+      const auto viewer = std::find_if(by_distance.begin(), last, [&](const auto& candidate) {
+        return !is_hidden(cells[i], grid.cell_of(cloud.viewpoints[candidate.second]), opaque);
+      });
+      if (viewer != last) cells[i].viewer = viewer->second;
+    }
+  });
+}
+
+// What the viewpoints looked through, by blocks: those of one block are together, and of those the
+// ones of one viewpoint. Rays to neighbouring cells are near each other, so that a part of them
+// needs few blocks.
+std::vector<Glance> look_through(const std::vector<SeenCell>& cells, const PointCloud& cloud,
+                                 double resolution) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (cells[i].viewer != kNobody) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cells[a].viewer < cells[b].viewer; });
+  std::vector<Part> parts;
+  for (std::size_t i = 0, next = 0; i < order.size(); i = next) {
+    while (next < order.size() && next - i < kRaysPerPart &&
+           cells[order[next]].viewer == cells[order[i]].viewer)
+      ++next;
+    parts.push_back({i, next});
+  }
+  std::vector<std::vector<CellSet::Block>> found(parts.size());
+  parallel_for(parts.size(), [&](std::size_t part) {
+    const Vec3 from = cloud.viewpoints[cells[order[parts[part].begin]].viewer] / resolution;
+    CellSet passed;
+    for (std::size_t i = parts[part].begin; i < parts[part].end; ++i)
+      walk_cells(from, cell_at(cells[order[i]].code), [&](std::uint64_t code) {
+        passed.insert(code);
+        return true;
+      });
+    found[part] = passed.take_blocks();
+  });
+  std::vector<Glance> glances;
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    for (const CellSet::Block& block : found[part])
+      glances.push_back({cells[order[parts[part].begin]].viewer, block});
+  std::sort(glances.begin(), glances.end(), [](const Glance& a, const Glance& b) {
+    return std::pair(a.block.key, a.viewer) < std::pair(b.block.key, b.viewer);
+  });
+  return glances;
+}
+
+void count_up(std::uint16_t& count, std::size_t more) {
+  count = static_cast<std::uint16_t>(
+      std::min<std::size_t>(count + more, std::numeric_limits<std::uint16_t>::max()));
+}
+
+// Counts the cells of a block that a viewpoint looked through, and saw no point in.
+void add_misses(const Glance* begin, const Glance* end, const SeenCell* seen_begin,
+                const SeenCell* seen_end, OccupancyGrid::Block& block) {
+  auto bits = begin->block.bits;
+  for (const Glance* g = begin + 1; g != end; ++g)
+    for (std::size_t w = 0; w < bits.size(); ++w) bits[w] |= g->block.bits[w];
+  for (const SeenCell* s = seen_begin; s != seen_end; ++s) {
+    const std::uint64_t cell = s->code & (kBlockCells - 1);
+    if (s->viewer == begin->viewer) bits[cell / 64] &= ~(std::uint64_t{1} << cell % 64);
+  }
+  for (std::size_t w = 0; w < bits.size(); ++w)
+    for (std::uint64_t left = bits[w]; left != 0; left &= left - 1)
+      count_up(block.cells[64 * w + static_cast<std::size_t>(std::countr_zero(left))].misses, 1);
+}
+
+void fill_block(const std::vector<SeenCell>& seen, const std::vector<Glance>& glances,
+                OccupancyGrid::Block& block) {
+  const auto first = std::partition_point(seen.begin(), seen.end(), [&](const SeenCell& c) {
+    return c.code >> kBlockBits < block.key;
+  });
+  const auto last = std::partition_point(
+      first, seen.end(), [&](const SeenCell& c) { return c.code >> kBlockBits == block.key; });
+  for (auto cell = first; cell != last; ++cell)
+    count_up(block.cells[cell->code & (kBlockCells - 1)].hits, cell->points);
+
+  auto glance = std::partition_point(glances.begin(), glances.end(),
+                                     [&](const Glance& g) { return g.block.key < block.key; });
+  while (glance != glances.end() && glance->block.key == block.key) {
+    auto next = glance;
+    while (next != glances.end() && next->block.key == block.key && next->viewer == glance->viewer)
+      ++next;
+    add_misses(&*glance, &*glance + (next - glance), seen.data() + (first - seen.begin()),
+               seen.data() + (last - seen.begin()), block);
+    glance = next;
+  }
+}
+
+}  // namespace
+
+void check_octree_reach(const std::string& name, double reach, double resolution) {
+  constexpr double kReach = kOctreeCells / 2 - 1;  // [cells]
+  if (reach <= kReach * resolution) return;
+  // To two digits, rounded up.
+  const double digit = std::pow(10, std::floor(std::log10(reach / kReach)) - 1);
+  throw Error(
+      Cause::usage,
+      fmt::format("{}: coordinates reach {:.1f} m, but {} cells of {} m in each direction only "
+                  "{:.1f} m; a resolution of {:.2g} m would do",
+                  name, reach, kOctreeCells / 2, resolution, kOctreeCells / 2 * resolution,
+                  std::ceil(reach / kReach / digit) * digit));
+}
+
+OccupancyGrid::Cell OccupancyGrid::at(const Eigen::Vector3i& cell) const {
+  if (cell.minCoeff() < -kOctreeCells / 2 || cell.maxCoeff() >= kOctreeCells / 2) return {};
+  const std::uint64_t code = morton_of(cell);
+  const auto block = std::partition_point(
+      blocks.begin(), blocks.end(), [&](const Block& b) { return b.key < code >> kBlockBits; });
+  if (block == blocks.end() || block->key != code >> kBlockBits) return {};
+  return block->cells[code & (kBlockCells - 1)];
+}
+
+float OccupancyGrid::log_odds(const Cell& cell) const {
+  return std::clamp(static_cast<float>(cell.hits) * log_odds_of(options.hit) +
+                        static_cast<float>(cell.misses) * log_odds_of(options.miss),
+                    log_odds_of(options.lowest), log_odds_of(options.highest));
+}
+
+double OccupancyGrid::probability(const Eigen::Vector3i& cell) const {
+  const Cell counts = at(cell);
+  if (!counts.is_known()) return 0.5;
+  return 1 - 1 / (1 + std::exp(static_cast<double>(log_odds(counts))));
+}
+
+OccupancyGrid make_occupancy_grid(const PointCloud& cloud, const OccupancyOptions& options) {
+  check(cloud, options);
+  OccupancyGrid grid{.options = options, .blocks = {}};
+  std::vector<SeenCell> seen = find_seen(cloud, grid);
+  find_viewers(seen, cloud, grid);
+  const std::vector<Glance> glances = cloud.viewpoints.empty()
+                                          ? std::vector<Glance>{}
+                                          : look_through(seen, cloud, options.resolution);
+
+  std::vector<std::uint64_t> keys;
+  for (const SeenCell& cell : seen) keys.push_back(cell.code >> kBlockBits);
+  for (const Glance& glance : glances) keys.push_back(glance.block.key);
+  parallel_sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  grid.blocks.resize(keys.size());
+  parallel_for(keys.size(), [&](std::size_t i) {
+    grid.blocks[i].key = keys[i];
+    fill_block(seen, glances, grid.blocks[i]);
+  });
+  return grid;
+}
+
+}  // namespace scanworld
