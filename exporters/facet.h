@@ -15,8 +15,8 @@ class Facet {
  public:
   Plane plane;  // of the triangle, to its free side
 
-  Facet(const std::array<Vec3, 3>& corners, const Plane& of) : plane(of) {
-    add_slab(corners, plane.normal);
+  Facet(const std::array<Vec3, 3>& corners, const Plane& of)
+      : plane(of), spread_(of.normal.cwiseAbs().sum()) {
     for (int axis = 0; axis < 3; ++axis) add_slab(corners, Vec3::Unit(axis));
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -29,10 +29,14 @@ class Facet {
     }
   }
 
-  // Whether a cube, with its middle and half its edge [m], touches the triangle: there is no
-  // direction in which they are apart, of those normal to a face of one of them or to an edge of
-  // each (Gottschalk et al. 1996; Akenine-Möller 2001).
+  // Whether some of a cube, with its middle and half its edge [m], is on the triangle or next to it
+  // on its back: a cube that touches it with its face alone counts where it is behind, not where it
+  // is before or beside it. They are apart where they are so along the normal of a face of one of
+  // them, or along a direction square to an edge of each (Gottschalk et al. 1996).
   bool touches(const Vec3& center, double half) const {
+    const double distance = plane.signed_distance(center);
+    if (distance + half * spread_ < -kRounding || distance - half * spread_ > -kRounding)
+      return false;
     for (std::size_t i = 0; i < slab_count_; ++i) {
       const Slab& slab = slabs_[i];
       if (std::abs(slab.axis.dot(center) - slab.middle) > slab.half + half * slab.spread)
@@ -49,11 +53,13 @@ class Facet {
   }
 
  private:
-  // The triangle between two planes.
+  static constexpr double kRounding = 1e-7;  // [m] what is nearer to a face is on it
+
+  // What the triangle takes of a direction.
   struct Slab {
     Vec3 axis;
-    double middle, half;  // along the axis, times its length
-    double spread;        // what a cube of half edge 1 takes of the axis to both sides
+    double middle, half;  // times the length of the axis; `half` is less by the rounding
+    double spread;        // what a cube of half edge 1 takes to both sides
   };
 
   void add_slab(const std::array<Vec3, 3>& corners, const Vec3& axis) {
@@ -61,10 +67,14 @@ class Facet {
     if (spread == 0) return;  // an edge along an axis
     const double a = axis.dot(corners[0]), b = axis.dot(corners[1]), c = axis.dot(corners[2]);
     const double low = std::min({a, b, c}), high = std::max({a, b, c});
-    slabs_[slab_count_++] = {axis, (low + high) / 2, (high - low) / 2, spread};
+    const double half = (high - low) / 2, rounding = kRounding * spread;
+    // A direction that the triangle has no width in is its normal, which is dealt with apart.
+    slabs_[slab_count_++] = {axis, (low + high) / 2,
+                             half > 2 * rounding ? half - rounding : half + rounding, spread};
   }
 
-  std::array<Slab, 13> slabs_;
+  double spread_;  // of the normal, as that of a slab
+  std::array<Slab, 12> slabs_;
   std::size_t slab_count_ = 0;
   std::array<Plane, 3> sides_;  // through an edge, square to the triangle; their normals have no
                                 // length in particular and point inwards

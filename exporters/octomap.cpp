@@ -21,10 +21,9 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kRounding = 1e-7;  // [m] that cells are larger by, so that rounding leaves no gap
-constexpr int kKnownStep = 16;      // [cells] that the bounds of what can be known are rounded to
-constexpr int kApart = 64;          // [cells] edge of the cubes whose parts are made in parallel
-constexpr double kMaxCells = 5e8;   // that surfaces lie in
+constexpr int kKnownStep = 16;     // [cells] that the bounds of what can be known are rounded to
+constexpr int kApart = 64;         // [cells] edge of the cubes whose parts are made in parallel
+constexpr double kMaxCells = 5e8;  // that surfaces lie in
 
 // A cube of the tree, in cells.
 struct Cube {
@@ -163,7 +162,7 @@ class WorldTree {
                       const std::vector<const Solid*>& solids, OctreeNodes& out, int* room) const {
     const Box3 box = cube.box(all_.cell);
     const Vec3 center = box.center();
-    const double half = cube.size * all_.cell / 2 + kRounding;
+    const double half = cube.size * all_.cell / 2;
     int* end = room;
     for (const int* f = whole.begin; f != whole.end; ++f)
       if (all_.facets[static_cast<std::size_t>(*f)].touches(center, half)) {

@@ -16,10 +16,10 @@ struct OctomapOptions {
 // Writes a world as an OctoMap, metres, in the world's frame: `.bt`, or `.ot` where the extension
 // says so.
 //
-// Occupied is every cell that a surface, a pane of glass or an obstacle touches, and the inside of
-// obstacles. Of the others those are free that the front of a surface faces, with nothing between,
-// within the bounds of the world (rounded out to 16 cells). All else is unknown: the inside of
-// walls, what is behind surfaces, and outside.
+// Occupied is every cell that has some of a surface, a pane of glass or an obstacle in it, or next
+// to it behind its face, and the inside of obstacles. Of the others those are free that the front
+// of a surface faces, with nothing between, within the bounds of the world (rounded out to 16
+// cells). All else is unknown: the inside of walls, what is behind surfaces, and outside.
 //
 // Throws usage naming the file, the value and what would do, where the world is too large for the
 // resolution: for the tree, or for more than some 500 million cells.
