@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
 #include "error.h"
+#include "files.h"
+#include "scan/ply.h"
 
 namespace scanworld::cli {
 
@@ -62,6 +65,17 @@ Progress Console::make_progress() const {
 
 void Console::finish_progress() const {
   if (draws_bar()) fmt::print(stderr, "\r{:70}\r", "");
+}
+
+FileKind kind_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::string extension = lower_extension(file);
+  if (extension == ".json" || std::filesystem::is_directory(file, ignored)) return FileKind::world;
+  static const std::vector<std::string> meshes = {".obj", ".stl", ".glb", ".gltf",
+                                                  ".dae", ".off", ".3ds", ".fbx"};
+  if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return FileKind::mesh;
+  if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
+  return FileKind::scan;
 }
 
 std::string grouped(std::size_t number) {

@@ -40,6 +40,10 @@ struct Console {
   bool draws_bar() const;
 };
 
+// What a file is, by its extension and, of PLY, by its content; a folder is a world.
+enum class FileKind { scan, mesh, world };
+FileKind kind_of(const std::filesystem::path& file);
+
 // A file in a folder, joined; numbers grouped by thousands; boxes as text.
 std::string grouped(std::size_t number);
 std::string text_of(const Vec3& v);

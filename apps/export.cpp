@@ -8,6 +8,8 @@
 
 #include "cli.h"
 #include "error.h"
+#include "fidelity.h"
+#include "scan/read_scan.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -15,13 +17,22 @@ namespace scanworld::cli {
 namespace {
 
 struct ExportRequest {
-  std::filesystem::path world, out;
+  std::filesystem::path world, out, poses;
   std::string format, up = "z", color = "scan", budget;
   std::vector<double> origin = {0, 0, 0};
   bool all = false;
   ExportOptions options;
   Console console;
 };
+
+void run_on_scan(const ExportRequest& request) {
+  if (request.all)
+    throw Error(Cause::usage, request.world.string() + ": --all needs a world; see build");
+  scan_export_format(request.out, request.format);  // before the scan is read
+  PointCloud scan = read_scan({request.world});
+  if (!request.poses.empty()) use_poses(scan, read_poses(request.poses));
+  export_scan(scan, request.out, request.options, request.format);
+}
 
 void run(ExportRequest request) {
   ExportOptions& options = request.options;
@@ -32,6 +43,10 @@ void run(ExportRequest request) {
   if (request.all && !request.format.empty())
     throw Error(Cause::usage, "--all writes every format; leave --format out");
   if (!request.all) export_format(request.out, request.format);  // before the world is read
+  if (std::filesystem::is_regular_file(request.world) && kind_of(request.world) == FileKind::scan)
+    return run_on_scan(request);
+  if (!request.poses.empty())
+    throw Error(Cause::usage, request.poses.string() + ": --poses goes with a scan, not a world");
   const World world = read_world(request.world);
   if (!request.all) return export_world(world, request.out, options, request.format);
   for (const LeftOut& format : export_all(world, request.out, options))
@@ -47,6 +62,7 @@ std::string footer() {
   return text +
          "\nExamples:\n  scanworld export office -o office.glb\n"
          "  scanworld export office -o office_for_all --all\n"
+         "  scanworld export office.ply -o grid.ot --poses poses.txt --resolution 0.1\n"
          "  scanworld export office -o office.xml --budget solids=500,hull_vertices=60";
 }
 
@@ -56,7 +72,7 @@ void add_export(CLI::App& app) {
   auto request = std::make_shared<ExportRequest>();
   ExportOptions& options = request->options;
   CLI::App* verb = app.add_subcommand("export", "Write a world in another format");
-  verb->add_option("world", request->world, "A world.json or its folder")
+  verb->add_option("world", request->world, "A world.json or its folder; for grids a scan as well")
       ->required()
       ->type_name("WORLD");
   verb->add_option("-o,--out", request->out, "File to write; with --all a folder")
@@ -85,6 +101,17 @@ void add_export(CLI::App& app) {
   verb->add_flag("--merge", options.merge, "All that is seen in one mesh");
   verb->add_flag("--physics", options.physics,
                  "glTF: with colliders (KHR_physics_rigid_bodies, a draft)");
+  verb->add_option("--resolution", options.resolution, "Edge of the cells of grids [m]")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  verb->add_flag("--open-glass", options.open_glass,
+                 "Grids: panes of glass are no obstacles, as to a lidar");
+  verb->add_option("--poses", request->poses, "Grids of scans: scanner positions, one a line")
+      ->type_name("F");
+  verb->add_option("--min-points", options.min_points,
+                   "Grids of scans: cells with fewer points have none")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->add_option("--budget", request->budget,
                    "Most that the engine takes: faces=N,solids=N,hulls=N,hull_vertices=N")
       ->type_name("CAPS");

@@ -7,8 +7,6 @@
 
 #include "cli.h"
 #include "exporters/assimp.h"
-#include "files.h"
-#include "scan/ply.h"
 #include "scan/read_scan.h"
 #include "world/level.h"
 #include "world/world_json.h"
@@ -18,19 +16,6 @@ namespace scanworld::cli {
 namespace {
 
 using cli::json_of;
-
-enum class FileKind { scan, mesh, world };
-
-FileKind kind_of(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const std::string extension = lower_extension(file);
-  if (extension == ".json" || std::filesystem::is_directory(file, ignored)) return FileKind::world;
-  static const std::vector<std::string> meshes = {".obj", ".stl", ".glb", ".gltf",
-                                                  ".dae", ".off", ".3ds", ".fbx"};
-  if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return FileKind::mesh;
-  if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
-  return FileKind::scan;
-}
 
 Json json_of(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 

@@ -11,8 +11,10 @@
 #include "error.h"
 #include "files.h"
 #include "gltf.h"
+#include "grid.h"
 #include "mjcf.h"
 #include "obj.h"
+#include "octomap.h"
 #include "ply.h"
 #include "sdf.h"
 #include "stl.h"
@@ -79,6 +81,12 @@ const std::vector<ExportFormat>& export_formats() {
        "`mujoco.MjModel.from_xml_path('{0}')`; in a model: `<include file=\"{0}\"/>`", write_mjcf},
       {"usda", "usda", "USD as text, with UsdPhysics colliders",
        "Isaac Sim, usdview: open {0}; in a stage: add it as a reference", write_usda, true},
+      {"bt", "bt", "OctoMap, cells free, occupied or unknown; also of a scan",
+       "`octovis {0}`; C++: `octomap::OcTree tree(\"{0}\")`; ROS: `octomap_server {0}`",
+       write_octomap, false, write_scan_grid},
+      {"ot", "ot", "OctoMap with the odds of each cell; also of a scan",
+       "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`", write_octomap, false,
+       write_scan_grid},
       {"json", "json", "the world itself, world.json", "`scanworld info {0}`", write_json, true},
   };
   return formats;
@@ -104,6 +112,27 @@ void export_world(const World& world, const std::filesystem::path& path,
   const ExportFormat& chosen = export_format(path, format);
   check_fits(chosen, path, options);
   chosen.write(path, prepare_export(world, options), options);
+}
+
+const ExportFormat& scan_export_format(const std::filesystem::path& path, const std::string& name) {
+  const ExportFormat& format = export_format(path, name);
+  if (format.write_scan) return format;
+  std::string names;
+  for (const ExportFormat& f : export_formats())
+    if (f.write_scan) names += (names.empty() ? "" : ", ") + f.name;
+  throw Error(Cause::usage,
+              fmt::format("{}: {} is made of a world; of a scan there are {} (build makes a world)",
+                          path.string(), format.name, names));
+}
+
+void export_scan(const PointCloud& scan, const std::filesystem::path& path,
+                 const ExportOptions& options, const std::string& format) {
+  const ExportFormat& chosen = scan_export_format(path, format);
+  if (options.level || options.y_up || options.origin != Vec3::Zero())
+    throw Error(Cause::usage, fmt::format("{}: a scan is written as it lies; leave --level, --up "
+                                          "and --origin out",
+                                          path.string()));
+  chosen.write_scan(path, scan, options);
 }
 
 std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,

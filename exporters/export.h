@@ -19,6 +19,9 @@ struct ExportFormat {
   std::string loading;    // how to load it, {0} standing for the file
   void (*write)(const std::filesystem::path&, const World&, const ExportOptions&);
   bool any_up = false;  // whether it can be written with Y up as well
+  // From a scan as it is, without a world; null where the format has no such form.
+  void (*write_scan)(const std::filesystem::path&, const PointCloud&,
+                     const ExportOptions&) = nullptr;
 };
 
 const std::vector<ExportFormat>& export_formats();
@@ -36,6 +39,15 @@ World prepare_export(World world, const ExportOptions& options);
 // appears whole or not at all. Throws usage where an option does not go with the format.
 void export_world(const World& world, const std::filesystem::path& path,
                   const ExportOptions& options = {}, const std::string& format = "");
+
+// The same of those that need no world. Throws usage naming them where the format does.
+const ExportFormat& scan_export_format(const std::filesystem::path& path,
+                                       const std::string& name = "");
+
+// Writes a scan in a format that needs no world, in the scan's coordinates as stored. Throws usage
+// where an option asks for other ones.
+void export_scan(const PointCloud& scan, const std::filesystem::path& path,
+                 const ExportOptions& options = {}, const std::string& format = "");
 
 // A format that a world could not be written in.
 struct LeftOut {

@@ -29,6 +29,9 @@ struct ExportOptions {
   bool color_by_kind = false;  // instead of the scan's colours
   bool merge = false;          // all that is seen in one mesh, for engines that trace rays in one
   bool physics = false;        // glTF: with the solids, by extensions that are drafts
+  double resolution = 0.05;    // [m] edge of the cells of grids
+  bool open_glass = false;     // grids: panes are no obstacles, as to a lidar
+  std::size_t min_points = 1;  // grids of scans: a cell with fewer points has none
   ExportBudget budget;
 };
 

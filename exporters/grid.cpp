@@ -40,7 +40,13 @@ OctreeNode add_blocks(const OccupancyGrid& grid, std::uint64_t first, int level,
 void write_grid(const std::filesystem::path& path, const OccupancyGrid& grid) {
   OctreeNodes nodes(octree_kind(path));
   add_blocks(grid, 0, kOctreeDepth - 3, nodes);
-  nodes.write(path, grid.options.resolution);
+  nodes.write(path, grid.options.resolution, {.origin = grid.origin});
+}
+
+void write_scan_grid(const std::filesystem::path& path, const PointCloud& scan,
+                     const ExportOptions& options) {
+  write_grid(path, make_occupancy_grid(
+                       scan, {.resolution = options.resolution, .min_points = options.min_points}));
 }
 
 }  // namespace scanworld

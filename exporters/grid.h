@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "export_options.h"
 #include "occupancy_grid.h"
 
 namespace scanworld {
@@ -11,5 +12,9 @@ namespace scanworld {
 // Writes an occupancy grid as an OctoMap, in its own coordinates: with the odds of each cell (.ot),
 // or whether it is free or occupied (.bt).
 void write_grid(const std::filesystem::path& path, const OccupancyGrid& grid);
+
+// Makes the grid of a scan and writes it.
+void write_scan_grid(const std::filesystem::path& path, const PointCloud& scan,
+                     const ExportOptions& options);
 
 }  // namespace scanworld

@@ -242,13 +242,13 @@ void check_size(const std::filesystem::path& path, const World& world, double re
 }  // namespace
 
 void write_octomap(const std::filesystem::path& path, const World& world,
-                   const OctomapOptions& options) {
+                   const ExportOptions& options) {
   check_size(path, world, options.resolution);
   const OctreeKind kind = octree_kind(path);
-  const Scenery scenery(options.glass ? with_panes(world) : world, options.resolution, kind);
+  const Scenery scenery(options.open_glass ? world : with_panes(world), options.resolution, kind);
   OctreeNodes nodes(kind);
   WorldTree(scenery).add(nodes);
-  nodes.write(path, options.resolution);
+  nodes.write(path, options.resolution, world.frame);
 }
 
 }  // namespace scanworld

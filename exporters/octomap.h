@@ -4,19 +4,16 @@
 
 #include <filesystem>
 
+#include "export_options.h"
 #include "world/world.h"
 
 namespace scanworld {
 
-struct OctomapOptions {
-  double resolution = 0.05;  // [m] edge of the smallest cells
-  bool glass = true;         // panes are occupied: a robot does not go through them; a lidar would
-};
-
 // Writes a world as an OctoMap, metres, in the world's frame: `.bt`, or `.ot` where the extension
 // says so.
 //
-// Occupied is every cell that has some of a surface, a pane of glass or an obstacle in it, or next
+// Occupied is every cell that has some of a surface, a pane of glass (a robot does not go
+// through it; a lidar would: options.open_glass) or an obstacle in it, or next
 // to it behind its face, and the inside of obstacles. Of the others those are free that the front
 // of a surface faces, with nothing between, within the bounds of the world (rounded out to 16
 // cells). All else is unknown: the inside of walls, what is behind surfaces, and outside.
@@ -24,6 +21,6 @@ struct OctomapOptions {
 // Throws usage naming the file, the value and what would do, where the world is too large for the
 // resolution: for the tree, or for more than some 500 million cells.
 void write_octomap(const std::filesystem::path& path, const World& world,
-                   const OctomapOptions& options = {});
+                   const ExportOptions& options);
 
 }  // namespace scanworld

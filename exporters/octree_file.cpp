@@ -98,12 +98,16 @@ void OctreeNodes::append(const OctreeNodes& subtree) {
   count_ += subtree.count_;
 }
 
-void OctreeNodes::write(const std::filesystem::path& path, double resolution) const {
+void OctreeNodes::write(const std::filesystem::path& path, double resolution,
+                        const Frame& frame) const {
+  const Vec3& o = frame.origin;
+  const auto& q = frame.rotation.coeffs();
   OutputFile file(path);
   file.write(fmt::format(
-      "{}\n# by scanworld, in metres\nid OcTree\nsize {}\nres {}\ndata\n",
-      kind_ == OctreeKind::binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file",
-      count_, resolution));
+      "{}\n# by scanworld, in metres\n# in the scan: rotation {} {} {} {}, origin {} {} {}\n"
+      "id OcTree\nsize {}\nres {}\ndata\n",
+      kind_ == OctreeKind::binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file", q[0],
+      q[1], q[2], q[3], o.x(), o.y(), o.z(), count_, resolution));
   file.write(bytes_);
   file.commit();
 }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "world/world.h"
+
 namespace scanworld {
 
 // The two kinds of file of OctoMap (those of liboctomap 1.9).
@@ -42,9 +44,9 @@ class OctreeNodes {
   // Adds the nodes of a subtree that was made apart.
   void append(const OctreeNodes& subtree);
 
-  // The file of the tree whose root is all that was added; of none where nothing is known. It
-  // appears whole or not at all.
-  void write(const std::filesystem::path& path, double resolution) const;
+  // The file of the tree whose root is all that was added; of none where nothing is known. Its
+  // comment says how the tree lies in the coordinates of the scan. It appears whole or not at all.
+  void write(const std::filesystem::path& path, double resolution, const Frame& frame) const;
 
  private:
   OctreeKind kind_;

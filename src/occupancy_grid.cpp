@@ -274,7 +274,7 @@ double OccupancyGrid::probability(const Eigen::Vector3i& cell) const {
 
 OccupancyGrid make_occupancy_grid(const PointCloud& cloud, const OccupancyOptions& options) {
   check(cloud, options);
-  OccupancyGrid grid{.options = options, .blocks = {}};
+  OccupancyGrid grid{.options = options, .origin = cloud.origin, .blocks = {}};
   std::vector<SeenCell> seen = find_seen(cloud, grid);
   find_viewers(seen, cloud, grid);
   const std::vector<Glance> glances = cloud.viewpoints.empty()

@@ -28,7 +28,7 @@ inline float log_odds_of(double probability) {
 
 // The sensor model of OctoMap, with the values of its library (Hornung et al. 2013).
 struct OccupancyOptions {
-  double resolution = 0.1;     // [m] edge of a cell
+  double resolution = 0.05;    // [m] edge of a cell
   double hit = 0.7;            // probability that a cell is occupied that a point is in ...
   double miss = 0.4;           // ... and one that was looked through
   double lowest = 0.1192;      // what no probability falls below ...
@@ -55,7 +55,8 @@ struct OccupancyGrid {
   };
 
   OccupancyOptions options;
-  std::vector<Block> blocks;  // by ascending key
+  Vec3 origin = Vec3::Zero();  // [m] what was subtracted from the scan's coordinates
+  std::vector<Block> blocks;   // by ascending key
 
   // The cell that a point is in.
   Eigen::Vector3i cell_of(const Vec3& p) const {

@@ -9,12 +9,16 @@
 #include "cell_walk.h"
 #include "exporters/grid.h"
 #include "parallel.h"
+#include "scan/read_scan.h"
+#include "scan/write_scan.h"
 #include "support/scenes.h"
 
 using namespace scanworld;
 using namespace scanworld::test;
 
 namespace {
+
+const OccupancyOptions kTenth{.resolution = 0.1};
 
 double probability_of(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
@@ -52,7 +56,7 @@ std::size_t known_cells(const OccupancyGrid& grid) {
 TEST_CASE("a ray makes the cells that it passes freer and the one that it ends in more occupied") {
   PointCloud cloud = cloud_of({{2.05, 0.05, 0.05}});
   cloud.viewpoints = {{0.05, 0.05, 0.05}};
-  const OccupancyGrid grid = make_occupancy_grid(cloud, {.resolution = 0.1});
+  const OccupancyGrid grid = make_occupancy_grid(cloud, kTenth);
   CHECK(probability_at(grid, {2.05, 0.05, 0.05}) == doctest::Approx(0.7));
   for (int i = 0; i < 20; ++i)
     CHECK(probability_at(grid, {0.1 * i + 0.05, 0.05, 0.05}) == doctest::Approx(0.4));
@@ -93,7 +97,7 @@ TEST_CASE("probabilities are kept between their bounds") {
   for (int i = 0; i < 100000; ++i) points.emplace_back(-2.05, 0.05, 0.05);
   PointCloud cloud = cloud_of(points);
   for (int i = 0; i < 4; ++i) cloud.viewpoints.emplace_back(0.02 * i + 0.01, 0.05, 0.05);
-  const OccupancyGrid grid = make_occupancy_grid(cloud);
+  const OccupancyGrid grid = make_occupancy_grid(cloud, kTenth);
   CHECK(probability_at(grid, {2.05, 0.05, 0.05}) == doctest::Approx(0.971));
   CHECK(probability_at(grid, {-2.05, 0.05, 0.05}) == doctest::Approx(0.971));
   // From many places in one cell, each a step, until the bound.
@@ -104,7 +108,7 @@ TEST_CASE("probabilities are kept between their bounds") {
     ring.points.push_back((1.5 * out + Vec3(0.05, 0.05, 0.05)).cast<float>());
     ring.viewpoints.push_back(0.03 * out + Vec3(0.05, 0.05, 0.05));
   }
-  CHECK(probability_at(make_occupancy_grid(ring), {0.05, 0.05, 0.05}) ==
+  CHECK(probability_at(make_occupancy_grid(ring, kTenth), {0.05, 0.05, 0.05}) ==
         doctest::Approx(0.1192).epsilon(1e-4));
   const OccupancyGrid narrow = make_occupancy_grid(seen_room(), {.lowest = 0.45, .highest = 0.6});
   double least = 1, most = 0;
@@ -131,7 +135,7 @@ TEST_CASE("a grid depends neither on the order of the points nor on the number o
 
 TEST_CASE("a room is free where it was looked through, and walls stay") {
   const PointCloud cloud = seen_room();
-  const OccupancyGrid grid = make_occupancy_grid(cloud);
+  const OccupancyGrid grid = make_occupancy_grid(cloud, kTenth);
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 inside(random.uniform(0.5, 3.5), random.uniform(0.5, 2.5), random.uniform(0.5, 2));
@@ -148,10 +152,10 @@ TEST_CASE("a room is free where it was looked through, and walls stay") {
 TEST_CASE("without viewpoints there are hits alone; cells with too few points have none") {
   PointCloud cloud = seen_room();
   cloud.viewpoints.clear();
-  for (const auto& block : make_occupancy_grid(cloud).blocks)
+  for (const auto& block : make_occupancy_grid(cloud, kTenth).blocks)
     for (const auto& cell : block.cells) CHECK(cell.misses == 0);
   std::size_t points = 0;
-  for (const auto& block : make_occupancy_grid(cloud, {.min_points = 3}).blocks)
+  for (const auto& block : make_occupancy_grid(cloud, {.resolution = 0.1, .min_points = 3}).blocks)
     for (const auto& cell : block.cells) {
       CHECK((cell.hits == 0 || cell.hits >= 3));
       points += cell.hits;
@@ -162,7 +166,7 @@ TEST_CASE("without viewpoints there are hits alone; cells with too few points ha
 
 TEST_CASE("liboctomap reads the probabilities as they are") {
   const TempFolder folder;
-  const OccupancyGrid grid = make_occupancy_grid(seen_room());
+  const OccupancyGrid grid = make_occupancy_grid(seen_room(), kTenth);
   write_grid(folder / "grid.ot", grid);
   const auto tree = read_tree(folder / "grid.ot");
   std::size_t known = 0;
@@ -194,7 +198,7 @@ TEST_CASE("one scan gives the cells that liboctomap makes of it") {
   // One point a cell, seen from one place: then both count alike.
   PointCloud cloud;
   std::set<std::uint64_t> taken;
-  const OccupancyGrid units{.options = {.resolution = 0.05}, .blocks = {}};
+  const OccupancyGrid units{.options = {.resolution = 0.05}};
   for (const Vec3f& p : room_points({4, 3, 2.5}, 0.05, 0.005).points)
     if (taken.insert(morton_of(units.cell_of(p.cast<double>()))).second) cloud.points.push_back(p);
   cloud.viewpoints = {{1.01, 1.02, 1.53}};
@@ -229,4 +233,33 @@ TEST_CASE("what cannot be is refused") {
                                     OccupancyOptions{.miss = 1}, OccupancyOptions{.lowest = 0.99},
                                     OccupancyOptions{.min_points = 0}})
     error_of(Cause::usage, [&] { make_occupancy_grid(far, o); });
+}
+
+TEST_CASE("the command makes grids of scans, and says which formats need a world") {
+  const TempFolder folder;
+  PointCloud cloud = seen_room();
+  cloud.origin = {512, 0, 0};
+  write_scan(folder / "room.ply", cloud);
+  write_file(folder / "poses.txt", "513 1 1.5\n515 2 1.5\n");
+  const std::string scan = (folder / "room.ply").string(), grid = (folder / "grid.ot").string();
+
+  const Outcome made = run({"export", scan, "-o", grid, "--poses", (folder / "poses.txt").string(),
+                            "--resolution", "0.1"});
+  CHECK(made.code == 0);
+  const PointCloud back = read_scan({folder / "room.ply"});
+  PointCloud seen = back;
+  for (const Vec3& v : cloud.viewpoints) seen.viewpoints.push_back(v + cloud.origin - back.origin);
+  write_grid(folder / "expected.ot", make_occupancy_grid(seen, kTenth));
+  CHECK(read_file(grid) == read_file(folder / "expected.ot"));
+  CHECK(contains(read_file(grid), "origin 512 0 0\n"));
+  CHECK(run({"export", scan, "-o", (folder / "grid.bt").string()}).code == 0);
+
+  const Outcome refused = run({"export", scan, "-o", (folder / "room.stl").string()});
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "stl is made of a world"));
+  CHECK(contains(refused.err, "bt, ot"));
+  CHECK(run({"export", scan, "-o", (folder / "all").string(), "--all"}).code == 2);
+  CHECK(run({"export", scan, "-o", grid, "--level"}).code == 2);
+  CHECK(run({"export", in_project("worlds/room.json").string(), "-o", grid, "--poses", "p"}).code ==
+        2);
 }

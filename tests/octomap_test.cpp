@@ -28,8 +28,7 @@ octomap::point3d to_octomap(const Vec3& p) {
 Vec3 from_octomap(const octomap::point3d& p) { return {p.x(), p.y(), p.z()}; }
 
 // The tree that liboctomap reads, which checks the number of nodes.
-std::unique_ptr<octomap::OcTree> octomap_of(const World& world,
-                                            const OctomapOptions& options = {}) {
+std::unique_ptr<octomap::OcTree> octomap_of(const World& world, const ExportOptions& options = {}) {
   const TempFolder folder;
   write_octomap(folder / "world.bt", world, options);
   auto tree = std::make_unique<octomap::OcTree>(1.0);
@@ -260,7 +259,7 @@ TEST_CASE("a pane of glass is occupied unless it is not wanted") {
   CHECK(cell_at(*octomap_of(world), pane) != Cell::occupied);
   world.openings[0].glass = true;
   CHECK(cell_at(*octomap_of(world), pane) == Cell::occupied);
-  CHECK(cell_at(*octomap_of(world, {.glass = false}), pane) != Cell::occupied);
+  CHECK(cell_at(*octomap_of(world, {.open_glass = true}), pane) != Cell::occupied);
 }
 
 TEST_CASE("the inside of obstacles is occupied") {
@@ -285,7 +284,7 @@ TEST_CASE("the same world gives the same bytes for any number of threads") {
     std::vector<std::string> files;
     for (int threads : {1, 3}) {
       const ThreadLimit limit(threads);
-      write_octomap(folder / name, world);
+      write_octomap(folder / name, world, {});
       files.push_back(read_file(folder / name));
     }
     CHECK(files[0] == files[1]);
@@ -295,7 +294,7 @@ TEST_CASE("the same world gives the same bytes for any number of threads") {
 TEST_CASE("the two kinds of file hold the same tree") {
   const World world = shipped("room");
   const TempFolder folder;
-  write_octomap(folder / "a.ot", world);
+  write_octomap(folder / "a.ot", world, {});
   const std::unique_ptr<octomap::AbstractOcTree> any(
       octomap::AbstractOcTree::read((folder / "a.ot").string()));
   auto* odds = dynamic_cast<octomap::OcTree*>(any.get());
@@ -318,7 +317,7 @@ TEST_CASE("an empty world is an empty tree, and one surface is its cells") {
 TEST_CASE("a world that is too large for the tree is refused with the resolution that would do") {
   const TempFolder folder;
   const World wide = square_at({2500, 0, 0});
-  const std::string why = error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", wide); });
+  const std::string why = error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", wide, {}); });
   CHECK(contains(why, "w.bt"));
   CHECK(contains(why, "2501.3 m"));
   CHECK(contains(why, "1638.4 m"));
@@ -328,6 +327,6 @@ TEST_CASE("a world that is too large for the tree is refused with the resolution
 
   World large = square_at({0, 0, 0});
   for (Vec3& v : large.vertices) v *= 3000;
-  CHECK(
-      contains(error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", large); }), "million"));
+  CHECK(contains(error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", large, {}); }),
+                 "million"));
 }
