@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr int kKnownStep = 16;     // [cells] that the bounds of what can be known are rounded to
 constexpr int kApart = 64;         // [cells] edge of the cubes whose parts are made in parallel
-constexpr double kMaxCells = 5e8;  // that surfaces lie in
+constexpr double kMaxCells = 1e8;  // that surfaces lie in: some 10 s, and a file of 50 MB
 
 // A cube of the tree, in cells.
 struct Cube {
@@ -227,16 +228,16 @@ void check_size(const std::filesystem::path& path, const World& world, double re
   const Box3 box = bounds(world);
   if (box.isEmpty()) return;
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  check_octree_reach(path.string(), reach + kKnownStep * resolution, resolution);
   double total = 0;
   for (const Surface& s : world.surfaces) total += area(world, s);
-  const double cells = total / (resolution * resolution);
-  if (cells > kMaxCells)
-    throw Error(Cause::usage,
-                fmt::format("{}: surfaces of {:.0f} m2 are {:.0f} million cells of {} m; a "
-                            "resolution of {:.2g} m would do",
-                            path.string(), total, cells / 1e6, resolution,
-                            1.1 * std::sqrt(total / kMaxCells)));
+  const double least = std::max(least_octree_resolution(reach), std::sqrt(total / kMaxCells));
+  if (resolution >= least) return;
+  throw Error(
+      Cause::usage,
+      fmt::format("{}: a world that reaches {:.1f} m from its origin with {:.0f} m2 of "
+                  "surfaces is too large for an OctoMap of {} m cells (2^16 along an axis, "
+                  "{:.0f} million on surfaces); a resolution of {:.2g} m would do",
+                  path.string(), reach, total, resolution, kMaxCells / 1e6, rounded_up(least)));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace scanworld {
 // cells). All else is unknown: the inside of walls, what is behind surfaces, and outside.
 //
 // Throws usage naming the file, the value and what would do, where the world is too large for the
-// resolution: for the tree, or for more than some 500 million cells.
+// resolution: for the tree, or for more than some 100 million cells.
 void write_octomap(const std::filesystem::path& path, const World& world,
                    const ExportOptions& options);
 

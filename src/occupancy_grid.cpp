@@ -90,7 +90,11 @@ void check(const PointCloud& cloud, const OccupancyOptions& o) {
   for (const Vec3f& p : cloud.points)
     reach = std::max(reach, static_cast<double>(p.cwiseAbs().maxCoeff()));
   for (const Vec3& v : cloud.viewpoints) reach = std::max(reach, v.cwiseAbs().maxCoeff());
-  check_octree_reach("the scan", reach, o.resolution);
+  if (const double least = least_octree_resolution(reach); o.resolution < least)
+    throw Error(Cause::usage,
+                fmt::format("the scan reaches {:.1f} m from its origin, which is too far for 2^16 "
+                            "cells of {} m; a resolution of {:.2g} m would do",
+                            reach, o.resolution, rounded_up(least)));
 }
 
 // The cells with points, by ascending code.
@@ -238,17 +242,9 @@ void fill_block(const std::vector<SeenCell>& seen, const std::vector<Glance>& gl
 
 }  // namespace
 
-void check_octree_reach(const std::string& name, double reach, double resolution) {
-  constexpr double kReach = kOctreeCells / 2 - 1;  // [cells]
-  if (reach <= kReach * resolution) return;
-  // To two digits, rounded up.
-  const double digit = std::pow(10, std::floor(std::log10(reach / kReach)) - 1);
-  throw Error(
-      Cause::usage,
-      fmt::format("{}: coordinates reach {:.1f} m, but {} cells of {} m in each direction only "
-                  "{:.1f} m; a resolution of {:.2g} m would do",
-                  name, reach, kOctreeCells / 2, resolution, kOctreeCells / 2 * resolution,
-                  std::ceil(reach / kReach / digit) * digit));
+double rounded_up(double value) {
+  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::ceil(value / digit) * digit;
 }
 
 OccupancyGrid::Cell OccupancyGrid::at(const Eigen::Vector3i& cell) const {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "types.h"
@@ -17,9 +16,11 @@ namespace scanworld {
 constexpr int kOctreeDepth = 16;
 constexpr int kOctreeCells = 1 << kOctreeDepth;
 
-// Throws usage where coordinates up to `reach` [m] are not in the tree, with the resolution that
-// would do; `name` is of the file or scan.
-void check_octree_reach(const std::string& name, double reach, double resolution);
+// The smallest edge of cells [m] with which coordinates up to `reach` [m] are in the tree.
+inline double least_octree_resolution(double reach) { return reach / (kOctreeCells / 2 - 1); }
+
+// To two digits, for people.
+double rounded_up(double value);
 
 // Of a probability.
 inline float log_odds_of(double probability) {

@@ -238,9 +238,9 @@ TEST_CASE("what cannot be is refused") {
 TEST_CASE("the command makes grids of scans, and says which formats need a world") {
   const TempFolder folder;
   PointCloud cloud = seen_room();
-  cloud.origin = {512, 0, 0};
+  cloud.origin = {524288, 0, 0};
   write_scan(folder / "room.ply", cloud);
-  write_file(folder / "poses.txt", "513 1 1.5\n515 2 1.5\n");
+  write_file(folder / "poses.txt", "524289 1 1.5\n524291 2 1.5\n");
   const std::string scan = (folder / "room.ply").string(), grid = (folder / "grid.ot").string();
 
   const Outcome made = run({"export", scan, "-o", grid, "--poses", (folder / "poses.txt").string(),
@@ -251,7 +251,7 @@ TEST_CASE("the command makes grids of scans, and says which formats need a world
   for (const Vec3& v : cloud.viewpoints) seen.viewpoints.push_back(v + cloud.origin - back.origin);
   write_grid(folder / "expected.ot", make_occupancy_grid(seen, kTenth));
   CHECK(read_file(grid) == read_file(folder / "expected.ot"));
-  CHECK(contains(read_file(grid), "origin 512 0 0\n"));
+  CHECK(contains(read_file(grid), "origin 524288 0 0\n"));
   CHECK(run({"export", scan, "-o", (folder / "grid.bt").string()}).code == 0);
 
   const Outcome refused = run({"export", scan, "-o", (folder / "room.stl").string()});
