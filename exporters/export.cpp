@@ -82,7 +82,8 @@ const std::vector<ExportFormat>& export_formats() {
       {"usda", "usda", "USD as text, with UsdPhysics colliders",
        "Isaac Sim, usdview: open {0}; in a stage: add it as a reference", write_usda, true},
       {"bt", "bt", "OctoMap, cells free, occupied or unknown; also of a scan",
-       "`octovis {0}`; C++: `octomap::OcTree tree(\"{0}\")`; ROS: `octomap_server {0}`",
+       "`octovis {0}`; C++: `octomap::OcTree tree(\"{0}\")`; ROS: `rosrun octomap_server "
+       "octomap_server_node {0}`",
        write_octomap, false, write_scan_grid},
       {"ot", "ot", "OctoMap with the odds of each cell; also of a scan",
        "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`", write_octomap, false,
