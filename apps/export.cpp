@@ -10,6 +10,7 @@
 #include "error.h"
 #include "fidelity.h"
 #include "scan/read_scan.h"
+#include "world/level.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -48,6 +49,9 @@ void run(ExportRequest request) {
   if (!request.poses.empty())
     throw Error(Cause::usage, request.poses.string() + ": --poses goes with a scan, not a world");
   const World world = read_world(request.world);
+  if (const double tilt = tilt_of(world.frame) * 180 / M_PI; tilt > 0.5 && !options.level)
+    request.console.warn(
+        fmt::format("the world is tilted by {:.1f} degrees; --level makes it upright", tilt));
   if (!request.all) return export_world(world, request.out, options, request.format);
   for (const LeftOut& format : export_all(world, request.out, options))
     request.console.warn("left out " + format.format + ": " + format.why);

@@ -84,15 +84,13 @@ struct Scenery {
                           world.surfaces[static_cast<std::size_t>(surfaces.surface[t])].plane);
     for (const Obstacle& o : world.obstacles) {
       Solid solid{mesh_of(o, world.frame), {}};
-      const int base = static_cast<int>(all.vertices.size());
-      for (const Vec3& v : solid.mesh.vertices) all.vertices.push_back(v), solid.box.extend(v);
+      for (const Vec3& v : solid.mesh.vertices) solid.box.extend(v);
       for (std::size_t i = 0; i < solid.mesh.triangles.size(); ++i) {
         const auto corners = corners_of(solid.mesh, i);
         const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
         facets.emplace_back(corners, plane_through(corners[0], normal));
-        const auto& t = solid.mesh.triangles[i];
-        all.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
       }
+      append(all, solid.mesh);
       solids.push_back(std::move(solid));
     }
     rays = std::make_unique<MeshRays>(std::move(all));

@@ -102,6 +102,11 @@ bool is_floor(const World& world, const Hit& hit) {
   return s.kind == Kind::floor && s.plane.normal.dot(world.frame.up) > 0.9999;
 }
 
+bool rests_on_floor(const World& world, const RayScene& scene, const Vec3& ball, double radius) {
+  const auto hit = scene.cast(ball, -world.frame.up);
+  return hit && is_floor(world, *hit) && std::abs(hit->distance - radius) < 0.01;
+}
+
 // Whether what a ray meets is the free side of it, and no cupboard from within.
 bool meets_front(const World& world, const RayScene& scene, const Ray& ray) {
   const auto hit = scene.cast(ray.from, ray.direction);
@@ -145,9 +150,9 @@ std::vector<Ray> free_rays(const World& world, const RayScene& scene, std::size_
   return rays;
 }
 
-std::string orders_of(const std::vector<Ray>& rays) {
+std::string orders_of(const std::vector<Ray>& rays, const std::string& order = "ray") {
   std::string orders;
-  for (const Ray& r : rays) orders += "ray " + text(r.from) + " " + text(r.direction) + "\n";
+  for (const Ray& r : rays) orders += order + " " + text(r.from) + " " + text(r.direction) + "\n";
   return orders;
 }
 
@@ -164,11 +169,18 @@ double share_alike(const RayScene& scene, const std::vector<Ray>& rays,
 }
 
 std::vector<double> depths_in(const Engine& engine, const std::filesystem::path& file,
-                              const std::vector<Ray>& rays) {
+                              const std::vector<Ray>& rays, const std::string& order = "ray") {
   std::vector<double> depths;
-  for (const std::string& line : ask(engine, file, orders_of(rays)))
+  for (const std::string& line : ask(engine, file, orders_of(rays, order)))
     depths.push_back(numbers_in(line).at(0));
   return depths;
+}
+
+// The kinds of rays whose depth is to be exact. Bullet meets convex solids by iteration, some
+// millimetres off, which is why there is a mesh for rays.
+std::vector<std::string> exact_rays(const Engine& engine) {
+  if (engine.extension == "bullet") return {"ray"};
+  return {"ray", "probe"};
 }
 
 // A door, from one side of the wall to the other.
@@ -223,8 +235,9 @@ TEST_CASE("the same rays meet the world at the same depth in every engine") {
     for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
       const auto file = folder / ("world." + engine.extension);
       export_world(world, file);
-      const double share = share_alike(scene, rays, depths_in(engine, file, rays));
-      CHECK_MESSAGE(share == 1, name << " in " << engine.name);
+      for (const std::string& order : exact_rays(engine))
+        CHECK_MESSAGE(share_alike(scene, rays, depths_in(engine, file, rays, order)) == 1,
+                      name << " in " << engine.name << ": " << order);
     }
     export_world(world, folder / "world.stl");
     const MeshRays stl(read_mesh(folder / "world.stl"));
@@ -252,8 +265,9 @@ TEST_CASE("rays pass through every door, in every engine as in the world") {
     for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
       const auto file = folder / ("world." + engine.extension);
       export_world(world, file);
-      for (double depth : depths_in(engine, file, rays))
-        CHECK_MESSAGE((depth < 0 || depth > 0.6), name << " in " << engine.name);
+      for (const std::string order : {"ray", "probe"})
+        for (double depth : depths_in(engine, file, rays, order))
+          CHECK_MESSAGE((depth < 0 || depth > 0.6), name << " in " << engine.name);
     }
   }
 }
@@ -303,8 +317,7 @@ TEST_CASE("balls that are dropped all over a place come to rest on its floor") {
       REQUIRE(ends.size() == 3 * from.size());
       for (std::size_t i = 0; i < from.size(); ++i) {
         const Vec3 end(ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]);
-        const auto hit = scene.cast(end, -world.frame.up);
-        CHECK_MESSAGE((hit && is_floor(world, *hit) && std::abs(hit->distance - radius) < 0.01),
+        CHECK_MESSAGE(rests_on_floor(world, scene, end, radius),
                       name << " in " << engine.name << " from " << text(from[i]));
       }
     }
@@ -327,6 +340,36 @@ TEST_CASE("solids have the same names in every engine, and gravity is against th
     REQUIRE(answers.size() == 1);
     const std::vector<double> g = numbers_in(answers[0]);
     CHECK((Vec3(g[0], g[1], g[2]) + 9.81 * world.frame.up).norm() < 1e-4);
+  }
+}
+
+TEST_CASE("the world of a scan is the same in every engine, and holds what falls on its floor") {
+  const TempFolder folder;
+  const Outcome built = run({"build", in_project("data/office.ply").string(), "-o",
+                             folder / "office", "--export", "none"});
+  REQUIRE_MESSAGE(built.code == 0, built.err);
+  const World world = without_cylinders(read_world(folder / "office"));
+  export_all(world, folder / "all");
+  const RayScene scene(world);
+  const std::vector<Ray> rays = free_rays(world, scene, 1000);
+  const std::vector<Vec3> from = free_places(world, scene, 20, 3);
+  std::string drop = "drop 0.1 3";
+  for (const Vec3& p : from) drop += " " + text(p);
+  for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
+    const auto file = folder / "all" / ("world." + engine.extension);
+    CHECK_MESSAGE(share_alike(scene, rays, depths_in(engine, file, rays)) == 1, engine.name);
+    // Solids are as thick as walls, so that rays that leave by a window may meet its sides.
+    if (exact_rays(engine).size() > 1)
+      CHECK_MESSAGE(share_alike(scene, rays, depths_in(engine, file, rays, "probe")) > 0.95,
+                    engine.name);
+    if (engine.name == kUrdf.name) continue;  // has no balls
+    const auto lines = ask(engine, file, drop + "\n");
+    REQUIRE(lines.size() == 1);
+    const std::vector<double> ends = numbers_in(lines[0]);
+    for (std::size_t i = 0; i < from.size(); ++i)
+      CHECK_MESSAGE(
+          rests_on_floor(world, scene, {ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]}, 0.1),
+          engine.name << " from " << text(from[i]));
   }
 }
 

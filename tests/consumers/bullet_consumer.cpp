@@ -54,11 +54,11 @@ class Bullet : public Consumer {
     return {g.x(), g.y(), g.z()};
   }
 
-  double ray(const Triple& from, const Triple& direction) override {
+  double ray(const Triple& from, const Triple& direction, Meets what) override {
     const double far = 1000;
     const btVector3 a = vector_of(from), b = a + static_cast<btScalar>(far) * vector_of(direction);
     btCollisionWorld::ClosestRayResultCallback hit(a, b);
-    hit.m_collisionFilterGroup = hit.m_collisionFilterMask = kRays;
+    hit.m_collisionFilterGroup = hit.m_collisionFilterMask = what == Meets::seen ? kRays : kSolids;
     world_.rayTest(a, b, hit);
     return hit.hasHit() ? far * static_cast<double>(hit.m_closestHitFraction) : -1;
   }

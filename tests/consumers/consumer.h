@@ -7,7 +7,8 @@
 //   count                           how many solids there are
 //   names                           their names
 //   gravity                         x y z
-//   ray X Y Z  DX DY DZ             distance to what it meets first, or -1
+//   ray X Y Z  DX DY DZ             distance to the first of what is seen, or -1
+//   probe X Y Z  DX DY DZ           distance to the first solid, or -1
 //   sweep X Y Z  X Y Z  SX SY SZ YAW   a box from place to place: "free" or "blocked"
 //   drop R  SECONDS  X Y Z          where a ball of this radius is after that time: x y z
 #pragma once
@@ -27,7 +28,10 @@ struct Consumer {
   virtual ~Consumer() = default;
   virtual std::vector<std::string> names() { throw std::runtime_error("no names here"); }
   virtual Triple gravity() { throw std::runtime_error("no gravity here"); }
-  virtual double ray(const Triple&, const Triple&) { throw std::runtime_error("no rays here"); }
+  enum class Meets { seen, solids };
+  virtual double ray(const Triple&, const Triple&, Meets) {
+    throw std::runtime_error("no rays here");
+  }
   virtual bool is_free(const Triple&, const Triple&, const Triple&, double) {
     throw std::runtime_error("no sweeps here");
   }
@@ -55,7 +59,9 @@ inline void answer(Consumer& consumer, const std::string& line) {
   } else if (order == "gravity") {
     std::cout << consumer.gravity();
   } else if (order == "ray" && in >> a >> b) {
-    std::cout << consumer.ray(a, b);
+    std::cout << consumer.ray(a, b, Consumer::Meets::seen);
+  } else if (order == "probe" && in >> a >> b) {
+    std::cout << consumer.ray(a, b, Consumer::Meets::solids);
   } else if (order == "sweep" && in >> a >> b >> size >> yaw) {
     std::cout << (consumer.is_free(a, b, size, yaw) ? "free" : "blocked");
   } else if (order == "drop" && in >> radius >> seconds) {

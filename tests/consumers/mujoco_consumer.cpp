@@ -31,9 +31,11 @@ class MuJoCo : public Consumer {
     const mjtNum* g = model_->opt.gravity;
     return {g[0], g[1], g[2]};
   }
-  double ray(const Triple& from, const Triple& direction) override {
+  double ray(const Triple& from, const Triple& direction, Meets what) override {
     int geom = -1;
-    return mj_ray(model_.get(), data_.get(), from.data(), direction.data(), nullptr, 1, -1, &geom);
+    const bool seen = what == Meets::seen;
+    const mjtByte groups[mjNGROUP] = {1, 0, seen, !seen, 0, 0};
+    return mj_ray(model_.get(), data_.get(), from.data(), direction.data(), groups, 1, -1, &geom);
   }
   bool is_free(const Triple& from, const Triple& to, const Triple& size, double yaw) override {
     std::ostringstream robot;

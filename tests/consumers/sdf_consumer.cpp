@@ -62,7 +62,9 @@ class Sdf : public Consumer {
     if (!model_->Static()) throw std::runtime_error("the model is not static");
     const sdf::Link& link = *model_->LinkByIndex(0);
     for (std::size_t i = 0; i < link.CollisionCount(); ++i) add(*link.CollisionByIndex(i));
-    if (link.VisualCount() > 0) mesh_of(*link.VisualByIndex(0)->Geom()->MeshShape());
+    if (link.VisualCount() > 0)
+      seen_.add_triangles(btTransform::getIdentity(),
+                          corners_of(mesh_of(*link.VisualByIndex(0)->Geom()->MeshShape())));
     make_dart();
   }
 
@@ -72,8 +74,8 @@ class Sdf : public Consumer {
     return {g.X(), g.Y(), g.Z()};
   }
 
-  double ray(const Triple& from, const Triple& direction) override {
-    return rays_.cast(from, direction);
+  double ray(const Triple& from, const Triple& direction, Meets what) override {
+    return (what == Meets::seen ? seen_ : solids_).cast(from, direction);
   }
 
   std::vector<Triple> drop(double radius, double seconds,
@@ -115,11 +117,11 @@ class Sdf : public Consumer {
     if (std::abs(ode->Get<double>("mu") - 0.8) > 1e-9) throw std::runtime_error("another friction");
     const btTransform at = transform_of(collision.RawPose());
     if (const auto* box = shape.BoxShape())
-      rays_.add_box(at, vector_of(box->Size()));
+      solids_.add_box(at, vector_of(box->Size()));
     else if (const auto* cylinder = shape.CylinderShape())
-      rays_.add_cylinder(at, cylinder->Radius(), cylinder->Length());
+      solids_.add_cylinder(at, cylinder->Radius(), cylinder->Length());
     else
-      rays_.add_triangles(at, corners_of(mesh_of(*shape.MeshShape())));
+      solids_.add_triangles(at, corners_of(mesh_of(*shape.MeshShape())));
   }
 
   static std::vector<btVector3> corners_of(const ignition::common::Mesh& mesh) {
@@ -155,7 +157,7 @@ class Sdf : public Consumer {
   const sdf::Model* model_ = nullptr;
   std::vector<std::string> names_;
   physics::World3dPtr<Features> world_;
-  BulletRays rays_;
+  BulletRays seen_, solids_;
 };
 
 }  // namespace

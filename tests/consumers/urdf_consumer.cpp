@@ -21,11 +21,12 @@ class Urdf : public Consumer {
     if (!link->child_links.empty() || link->inertial) throw std::runtime_error("it can move");
     for (const auto& c : link->collision_array) add(*c);
     for (const auto& v : link->visual_array)
-      triangles_of(static_cast<const urdf::Mesh&>(*v->geometry).filename);
+      seen_.add_triangles(btTransform::getIdentity(),
+                          triangles_of(static_cast<const urdf::Mesh&>(*v->geometry).filename));
   }
   std::vector<std::string> names() override { return names_; }
-  double ray(const Triple& from, const Triple& direction) override {
-    return rays_.cast(from, direction);
+  double ray(const Triple& from, const Triple& direction, Meets what) override {
+    return (what == Meets::seen ? seen_ : solids_).cast(from, direction);
   }
 
  private:
@@ -52,18 +53,18 @@ class Urdf : public Consumer {
     const btTransform at(btQuaternion(q.x, q.y, q.z, q.w), btVector3(p.x, p.y, p.z));
     if (c.geometry->type == urdf::Geometry::BOX) {
       const auto& size = static_cast<const urdf::Box&>(*c.geometry).dim;
-      rays_.add_box(at, {size.x, size.y, size.z});
+      solids_.add_box(at, {size.x, size.y, size.z});
     } else if (c.geometry->type == urdf::Geometry::CYLINDER) {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(*c.geometry);
-      rays_.add_cylinder(at, cylinder.radius, cylinder.length);
+      solids_.add_cylinder(at, cylinder.radius, cylinder.length);
     } else {
-      rays_.add_triangles(at, triangles_of(static_cast<const urdf::Mesh&>(*c.geometry).filename));
+      solids_.add_triangles(at, triangles_of(static_cast<const urdf::Mesh&>(*c.geometry).filename));
     }
   }
 
   std::filesystem::path folder_;
   std::vector<std::string> names_;
-  BulletRays rays_;
+  BulletRays seen_, solids_;
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ function names() {
   return all;
 }
 
+const ray = (v, groups) => mujoco.mj_ray(model, data, v.slice(0, 3), v.slice(3, 6), groups, 1, -1, new Int32Array(1));
+
 function drop(radius, seconds, places) {
   const balls = places.map((p) => `<body pos="${p.join(' ')}"><freejoint/><geom type="sphere" condim="6" friction="1 0.005 0.01" mass="1" size="${radius}"/></body>`);
   const [more, state] = load(world.replace('</worldbody>', balls.join('') + '</worldbody>'));
@@ -36,7 +38,8 @@ for (const line of orders.trim().split('\n')) {
   const values = rest.map(Number);
   if (order === 'names') console.log(names().join(' ') + ' ');
   else if (order === 'gravity') console.log(Array.from(model.opt.gravity).join(' '));
-  else if (order === 'ray') console.log(mujoco.mj_ray(model, data, values.slice(0, 3), values.slice(3, 6), [1, 1, 1, 1, 1, 1], 1, -1, new Int32Array(1)));
+  else if (order === 'ray') console.log(ray(values, [1, 0, 1, 0, 0, 0]));
+  else if (order === 'probe') console.log(ray(values, [1, 0, 0, 1, 0, 0]));
   else if (order === 'drop') console.log(drop(values[0], values[1], Array.from({ length: (values.length - 2) / 3 }, (_, i) => values.slice(2 + 3 * i, 5 + 3 * i))));
   else throw new Error(`what is '${line}'?`);
 }
