@@ -9,6 +9,7 @@
 #include "exporters/export.h"
 #include "exporters/parts.h"
 #include "mesh_rays.h"
+#include "support/engines.h"
 #include "support/scenes.h"
 #include "world/level.h"
 #include "world/ray_scene.h"
@@ -38,59 +39,7 @@ World without_cylinders(World world) {
   return world;
 }
 
-// A consumer, and the format that it takes.
-struct Engine {
-  std::string name, program, extension;
-};
-const Engine kBullet = {"Bullet", "bullet_consumer", "bullet"},
-             kBullet64 = {"Bullet in double precision", "bullet64_consumer", "bullet"},
-             kMuJoCo = {"MuJoCo", "mujoco_consumer", "xml"},
-             kMuJoCo3 = {"MuJoCo 3", "mujoco_consumer.mjs", "xml"},
-             kDart = {"SDF in DART", "sdf_consumer", "sdf"},
-             kUrdf = {"urdfdom", "urdf_consumer", "urdf"};
-
-std::filesystem::path node_script(const std::string& name) {
-  return in_project("tests/node/" + name);
-}
-
-// Whether the packages of tests/node/ are installed; says so where they are not.
-bool has_node_packages() {
-  const bool installed = std::filesystem::exists(node_script("node_modules/mujoco-js"));
-  if (!installed) MESSAGE("skipped: no packages from npm; './dev test' installs them");
-  return installed;
-}
-
-// The engines of these that can be had here.
-std::vector<Engine> present(std::vector<Engine> engines) {
-  if (!has_node_packages())
-    std::erase_if(engines, [](const Engine& e) { return e.program == kMuJoCo3.program; });
-  return engines;
-}
-
-// What an engine answers to orders about a file, line by line.
-std::vector<std::string> ask(const Engine& engine, const std::filesystem::path& file,
-                             const std::string& orders) {
-  const TempFolder folder;
-  const auto path = write_file(folder / "orders", orders);
-  const bool is_script = engine.program.ends_with(".mjs");
-  const auto program = is_script ? node_script(engine.program)
-                                 : std::filesystem::path(SCANWORLD_CONSUMERS) / engine.program;
-  std::vector<std::string> command = {program.string(), file.string(), path.string()};
-  if (is_script) command.insert(command.begin(), "node");
-  const Outcome outcome = run_program(command);
-  CHECK_MESSAGE(outcome.code == 0, engine.name << ": " << outcome.err);
-  std::vector<std::string> lines;
-  std::istringstream in(outcome.out);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 std::string text(const Vec3& v) { return text_of(v); }
-
-std::vector<double> numbers_in(const std::string& line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<double>(in), {}};
-}
 
 struct Ray {
   Vec3 from, direction;
@@ -139,6 +88,33 @@ std::vector<Vec3> free_places(const World& world, const RayScene& scene, std::si
   return places;
 }
 
+// Leaves out places that are near an earlier one, seen from above, so that balls do not meet.
+void keep_apart(std::vector<Vec3>& places, double distance) {
+  std::vector<Vec3> kept;
+  for (const Vec3& p : places)
+    if (std::all_of(kept.begin(), kept.end(),
+                    [&](const Vec3& q) { return (p - q).head<2>().norm() > distance; }))
+      kept.push_back(p);
+  places = kept;
+}
+
+// A place in a room: over a floor, and amid the room's surfaces.
+Vec3 place_in(const Room& room, const World& world, const RayScene& scene) {
+  for (std::uint64_t seed = 1; seed < 1000; ++seed) {
+    const Vec3 p = free_places(world, scene, 1, seed)[0];
+    int around = 0;
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+      const auto hit = scene.cast(p, way);
+      if (hit && hit->is_surface)
+        around += static_cast<int>(
+            std::count(room.surfaces.begin(), room.surfaces.end(), world.surfaces[hit->index].id));
+    }
+    if (around >= 3) return p;
+  }
+  FAIL("no place in " << room.name);
+  return {};
+}
+
 std::vector<Ray> free_rays(const World& world, const RayScene& scene, std::size_t count) {
   Random random(11);
   std::vector<Ray> rays;
@@ -173,6 +149,27 @@ std::vector<double> depths_in(const Engine& engine, const std::filesystem::path&
   std::vector<double> depths;
   for (const std::string& line : ask(engine, file, orders_of(rays, order)))
     depths.push_back(numbers_in(line).at(0));
+  return depths;
+}
+
+// A world as assimp finds it in a file of triangles, in the world's own axes and metres.
+MeshRays mesh_in(const std::string& format, const World& world) {
+  const TempFolder folder;
+  export_world(world, folder / ("world." + format));
+  Mesh mesh = read_mesh(folder / ("world." + format));
+  for (Vec3& v : mesh.vertices) {
+    if (format == "glb") v = Vec3(v.x(), -v.z(), v.y());
+    if (format == "3mf") v /= 1000;
+  }
+  return MeshRays(std::move(mesh));
+}
+
+std::vector<double> depths_in(const MeshRays& mesh, const std::vector<Ray>& rays) {
+  std::vector<double> depths;
+  for (const Ray& r : rays) {
+    const auto hit = mesh.cast(r.from, r.direction);
+    depths.push_back(hit ? hit->distance : -1);
+  }
   return depths;
 }
 
@@ -239,14 +236,8 @@ TEST_CASE("the same rays meet the world at the same depth in every engine") {
         CHECK_MESSAGE(share_alike(scene, rays, depths_in(engine, file, rays, order)) == 1,
                       name << " in " << engine.name << ": " << order);
     }
-    export_world(world, folder / "world.stl");
-    const MeshRays stl(read_mesh(folder / "world.stl"));
-    std::vector<double> depths;
-    for (const Ray& r : rays) {
-      const auto hit = stl.cast(r.from, r.direction);
-      depths.push_back(hit ? hit->distance : -1);
-    }
-    CHECK_MESSAGE(share_alike(scene, rays, depths) == 1, name << " in STL");
+    CHECK_MESSAGE(share_alike(scene, rays, depths_in(mesh_in("stl", world), rays)) == 1,
+                  name << " in STL");
   }
 }
 
@@ -262,6 +253,9 @@ TEST_CASE("rays pass through every door, in every engine as in the world") {
         rays.push_back(ray);
       }
     const TempFolder folder;
+    for (const char* format : {"stl", "obj", "ply", "dae", "3mf", "glb"})
+      for (double depth : depths_in(mesh_in(format, world), rays))
+        CHECK_MESSAGE((depth < 0 || depth > 0.6), name << " in " << format);
     for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
       const auto file = folder / ("world." + engine.extension);
       export_world(world, file);
@@ -299,12 +293,14 @@ TEST_CASE("a robot that fits gets through every door, and not through the wall b
   }
 }
 
-TEST_CASE("balls that are dropped all over a place come to rest on its floor") {
+TEST_CASE("balls that are dropped in each room and all over a place come to rest on its floor") {
   const double radius = 0.1, seconds = 3;
   for (const std::string& name : kPlaces) {
     const World world = place(name);
     const RayScene scene(world);
-    const std::vector<Vec3> from = free_places(world, scene, 20, 3);
+    std::vector<Vec3> from = free_places(world, scene, 20, 3);
+    for (const Room& room : world.rooms) from.push_back(place_in(room, world, scene));
+    keep_apart(from, 6 * radius);
     std::string orders = "drop " + text_of(radius) + " " + text_of(seconds);
     for (const Vec3& p : from) orders += " " + text(p);
     const TempFolder folder;
@@ -312,7 +308,7 @@ TEST_CASE("balls that are dropped all over a place come to rest on its floor") {
       const auto file = folder / ("world." + engine.extension);
       export_world(world, file);
       const auto lines = ask(engine, file, orders + "\n");
-      REQUIRE(lines.size() == 1);
+      REQUIRE_MESSAGE(lines.size() == 1, engine.name << ": " << (lines.empty() ? "" : lines[0]));
       const std::vector<double> ends = numbers_in(lines[0]);
       REQUIRE(ends.size() == 3 * from.size());
       for (std::size_t i = 0; i < from.size(); ++i) {
@@ -352,7 +348,8 @@ TEST_CASE("the world of a scan is the same in every engine, and holds what falls
   export_all(world, folder / "all");
   const RayScene scene(world);
   const std::vector<Ray> rays = free_rays(world, scene, 1000);
-  const std::vector<Vec3> from = free_places(world, scene, 20, 3);
+  std::vector<Vec3> from = free_places(world, scene, 20, 3);
+  keep_apart(from, 0.6);
   std::string drop = "drop 0.1 3";
   for (const Vec3& p : from) drop += " " + text(p);
   for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
