@@ -49,6 +49,18 @@ void add_back(World& world) {
 
 }  // namespace
 
+TEST_CASE("a notch that ends a little over the floor on one side is a door still") {
+  for (const std::size_t foot : {1u, 4u}) {
+    World world = wall_with_door_and_window();
+    world.vertices[foot].z() = 0.12;
+    const std::vector<Opening> openings = find_openings(world);
+    REQUIRE(openings.size() == 2);
+    CHECK(openings[1].kind == OpeningKind::door);
+    CHECK(openings[1].width == doctest::Approx(0.9));
+    CHECK(openings[1].height == doctest::Approx(2.05 - 0.12));
+  }
+}
+
 TEST_CASE("a notch at the bottom is a door, a hole above is a window, of their clear sizes") {
   const std::vector<Opening> openings = find_openings(wall_with_door_and_window());
   REQUIRE(openings.size() == 2);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -56,14 +57,14 @@ bool holds(const std::vector<Vec2>& ring, const Box2& box) {
   return true;
 }
 
-// The largest upright rectangle in a ring whose sides go through its corners; a low one stands on
-// the ring's bottom.
-Box2 largest_rectangle(const std::vector<Vec2>& ring, bool is_low) {
+// The largest upright rectangle in a ring whose sides go through its corners, and whose bottom is
+// no more than `lift` [m] over the ring's.
+Box2 largest_rectangle(const std::vector<Vec2>& ring, double lift) {
   std::set<double> xs, ys;
   for (const Vec2& p : ring) xs.insert(p.x()), ys.insert(p.y());
   Box2 best(Vec2::Zero(), Vec2::Zero());
   for (auto y0 = ys.begin(); y0 != ys.end(); ++y0) {
-    if (is_low && *y0 > *ys.begin() + 0.05) break;
+    if (*y0 > *ys.begin() + lift) break;
     for (auto y1 = std::next(y0); y1 != ys.end(); ++y1)
       for (auto x0 = xs.begin(); x0 != xs.end(); ++x0)
         for (auto x1 = xs.end(); --x1 != x0;) {
@@ -162,7 +163,9 @@ class OpeningFinder {
     Box2 box;
     for (const Vec2& p : ring) box.extend(p);
     gap.is_low |= box.min().y() < bottom + options_.sill;
-    gap.clear = largest_rectangle(ring, gap.is_low);
+    // What comes down to the floor on one side alone, as beside a skirting, is low still.
+    gap.clear =
+        largest_rectangle(ring, gap.is_low ? options_.sill : std::numeric_limits<double>::max());
     if (gap.clear.volume() < options_.squareness * std::abs(doubled_area(ring)) / 2 ||
         gap.width() < options_.min_width || gap.height() < options_.min_height)
       return;
