@@ -44,6 +44,10 @@ double tilt_of(const Frame& frame) {
   return std::atan2(std::hypot(frame.up.x(), frame.up.y()), frame.up.z());
 }
 
+Eigen::Quaterniond upright_turn(const Frame& frame) {
+  return Eigen::Quaterniond::FromTwoVectors(frame.up, Vec3::UnitZ());
+}
+
 const Surface* main_floor(const World& world) {
   const Surface* largest = nullptr;
   for (const Surface& s : world.surfaces)
@@ -70,8 +74,7 @@ World moved(World world, const Eigen::Quaterniond& rotation, const Vec3& shift) 
 
 World level_world(World world, const LevelOptions& options) {
   if (const double tilt = tilt_of(world.frame); options.level && tilt > 0) {
-    world = moved(std::move(world),
-                  Eigen::Quaterniond::FromTwoVectors(world.frame.up, Vec3::UnitZ()), Vec3::Zero());
+    world = moved(std::move(world), upright_turn(world.frame), Vec3::Zero());
     world.frame.up = Vec3::UnitZ();
     world.frame.assumed.push_back(
         fmt::format("turned upright on request, by {:.2f} degrees", tilt * 180 / M_PI));

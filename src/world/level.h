@@ -17,6 +17,9 @@ OptionList list_options(LevelOptions& options);
 // How far a world's up is off +Z [rad].
 double tilt_of(const Frame& frame);
 
+// The smallest turn that makes up +Z, so that headings stay.
+Eigen::Quaterniond upright_turn(const Frame& frame);
+
 // The floor with the largest area, the first of equal ones; null where there is no floor.
 const Surface* main_floor(const World& world);
 
