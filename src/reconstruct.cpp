@@ -272,7 +272,7 @@ void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, St
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
-  StageLog log(result.report, progress, options.method == Method::thesis ? 14 : 22);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 23);
   Found found = options.method == Method::thesis
                     ? Found{find_by_thesis(cloud, options.thesis, log, result), {}}
                     : find_by_rival(cloud, options, log, result);
@@ -299,6 +299,9 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival) enclose_clutter(cloud, options.obstacles, log, result);
   world = level_world(std::move(world), options.frame);
+  RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
+                        [&] { return find_rooms(world, options.rooms); });
+  world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
 
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))
@@ -321,7 +324,7 @@ OptionList list_options(ReconstructOptions& options) {
   for (const OptionList& more :
        {surface::list_options(options.surface), thesis::list_options(options.thesis),
         list_options(options.thickness), list_options(options.colliders),
-        list_options(options.obstacles), list_options(options.frame)})
+        list_options(options.obstacles), list_options(options.rooms), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   return list;
 }

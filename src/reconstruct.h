@@ -15,6 +15,7 @@
 #include "world/colliders.h"
 #include "world/level.h"
 #include "world/obstacles.h"
+#include "world/rooms.h"
 #include "world/thickness.h"
 #include "world/world.h"
 
@@ -30,6 +31,7 @@ struct ReconstructOptions {
   ObstacleOptions obstacles;        // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;
+  RoomOptions rooms;
   LevelOptions frame;
 };
 

@@ -143,7 +143,9 @@ class Place:
                 surfaces.append(self.face('ceiling', [[m, y0, h(m, y0)], [m, y1, h(m, y1)], [x1, y1, h(x1, y1)], [x1, y0, h(x1, y0)]]))
             else:
                 surfaces.append(self.face('ceiling', [[x, y, height] for x, y in reversed(plan)]))
-            self.rooms.append({'id': len(self.rooms), 'name': name, 'surfaces': surfaces})
+            self.rooms.append({'id': len(self.rooms), 'name': name, 'surfaces': surfaces,
+                               'area': round((x1 - x0) * (y1 - y0), 6),
+                               'center': [round((x0 + x1) / 2, 6), round((y0 + y1) / 2, 6), 0.0]})
         self.floor(list(rooms.values()), [g for g in gaps if g[5] == 0])
         for g, gap in enumerate(gaps):
             self.reveal(gap)

@@ -62,6 +62,8 @@ World moved(World world, const Eigen::Quaterniond& rotation, const Vec3& shift) 
     s.plane.normal = (motion.rotation * s.plane.normal).normalized();
     s.plane.offset -= s.plane.normal.dot(shift);
   }
+  for (Room& r : world.rooms)
+    if (r.center) r.center = motion(*r.center).unaryExpr(&rounded);
   const auto apply = [&](auto& shape) { motion.apply(shape); };
   for (Obstacle& o : world.obstacles) std::visit(apply, o.shape);
   for (Collider& c : world.colliders) std::visit(apply, c.shape);

@@ -197,8 +197,11 @@ Collider read_collider(const Node& n) {
 }
 
 Room read_room(const Node& n) {
-  n.expect_keys({"id", "name", "surfaces"});
-  return {n.at("id").integer(), n.at("name").text(), n.at("surfaces").integers()};
+  n.expect_keys({"id", "name", "surfaces", "?area", "?center"});
+  Room r{n.at("id").integer(), n.at("name").text(), n.at("surfaces").integers()};
+  if (n.has("area")) r.area = n.at("area").number();
+  if (n.has("center")) r.center = n.at("center").vector();
+  return r;
 }
 
 Door read_door(const Node& n) {

@@ -41,8 +41,7 @@ class Validator {
       check_surface_id(name, c.surface);
       std::visit([&](const auto& shape) { check_shape(name, shape); }, c.shape);
     }
-    for (const Room& r : world_.rooms)
-      for (int id : r.surfaces) check_surface_id(fmt::format("room {}", r.id), id);
+    for (const Room& r : world_.rooms) check(r);
     for (std::size_t i = 0; i < world_.doors.size(); ++i) {
       const Door& d = world_.doors[i];
       if (!openings.count(d.opening)) report("door {}: there is no opening {}", i, d.opening);
@@ -81,6 +80,14 @@ class Validator {
   template <typename T>  // a vector or a rotation
   static bool is_unit(const T& v) {
     return std::abs(v.norm() - 1) < kUnitTolerance;
+  }
+
+  void check(const Room& r) {
+    const std::string name = fmt::format("room {}", r.id);
+    for (int id : r.surfaces) check_surface_id(name, id);
+    if (r.area && !(*r.area > 0 && std::isfinite(*r.area)))
+      report("{}: the area {} is not positive", name, *r.area);
+    if (r.center && !r.center->allFinite()) report("{}: the center is not finite", name);
   }
 
   void check(const Surface& s) {

@@ -97,7 +97,9 @@ struct Collider {
 struct Room {
   int id = 0;
   std::string name;
-  std::vector<int> surfaces;  // ids
+  std::vector<int> surfaces;   // ids of those that bound it
+  std::optional<double> area;  // [m2] of its floor
+  std::optional<Vec3> center;  // a place on its floor, as near to the middle of it as can be
   bool operator==(const Room&) const = default;
 };
 

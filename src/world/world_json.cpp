@@ -81,7 +81,12 @@ Json with_shape(Json j, const Shape& shape) {
 
 Json to_json(const Obstacle& o) { return with_shape({{"id", o.id}}, o.shape); }
 Json to_json(const Collider& c) { return with_shape({{"surface", c.surface}}, c.shape); }
-Json to_json(const Room& r) { return {{"id", r.id}, {"name", r.name}, {"surfaces", r.surfaces}}; }
+Json to_json(const Room& r) {
+  Json j = {{"id", r.id}, {"name", r.name}, {"surfaces", r.surfaces}};
+  if (r.area) j["area"] = *r.area;
+  if (r.center) j["center"] = to_json(*r.center);
+  return j;
+}
 Json to_json(const Door& d) { return {{"opening", d.opening}, {"rooms", d.rooms}}; }
 
 Json to_json(const Provenance& p) {
