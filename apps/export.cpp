@@ -21,6 +21,7 @@ struct ExportRequest {
   std::filesystem::path world, out, poses;
   std::string format, up = "z", color = "scan", budget;
   std::vector<double> origin = {0, 0, 0};
+  std::vector<double> band = {ExportOptions{}.band_low, ExportOptions{}.band_high};
   bool all = false;
   ExportOptions options;
   Console console;
@@ -41,6 +42,9 @@ void run(ExportRequest request) {
   options.color_by_kind = request.color == "kind";
   options.origin = {request.origin[0], request.origin[1], request.origin[2]};
   options.budget = budget_from(request.budget);
+  options.band_low = request.band[0], options.band_high = request.band[1];
+  if (!(options.band_low >= 0 && options.band_low < options.band_high))
+    throw Error(Cause::usage, "--band: LOW should be 0 or more, and less than HIGH");
   if (request.all && !request.format.empty())
     throw Error(Cause::usage, "--all writes every format; leave --format out");
   if (!request.all) export_format(request.out, request.format);  // before the world is read
@@ -105,17 +109,26 @@ void add_export(CLI::App& app) {
   verb->add_flag("--merge", options.merge, "All that is seen in one mesh");
   verb->add_flag("--physics", options.physics,
                  "glTF: with colliders (KHR_physics_rigid_bodies, a draft)");
-  verb->add_option("--resolution", options.resolution, "Edge of the cells of grids [m]")
+  verb->add_option("--resolution", options.resolution, "Edge of the cells of grids and maps [m]")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
   verb->add_flag("--open-glass", options.open_glass,
-                 "Grids: panes of glass are no obstacles, as to a lidar");
+                 "Grids and maps: panes of glass are no obstacles, as to a lidar");
   verb->add_option("--poses", request->poses, "Grids of scans: scanner positions, one a line")
       ->type_name("F");
   verb->add_option("--min-points", options.min_points,
                    "Grids of scans: cells with fewer points have none")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  verb->add_option("--band", request->band,
+                   "Heights over the floor between which things are in a robot's way [m]")
+      ->expected(2)
+      ->type_name("LOW HIGH")
+      ->capture_default_str();
+  verb->add_option("--storey", options.storey,
+                   "Of maps of one: 0 for the lowest; where it is not given, that of the largest "
+                   "floor")
+      ->check(CLI::Range(0, 1000));
   verb->add_option("--budget", request->budget,
                    "Most that the engine takes: faces=N,solids=N,hulls=N,hull_vertices=N")
       ->type_name("CAPS");

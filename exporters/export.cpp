@@ -8,10 +8,14 @@
 
 #include "assimp.h"
 #include "bullet.h"
+#include "dot.h"
 #include "error.h"
 #include "files.h"
 #include "gltf.h"
+#include "graphml.h"
 #include "grid.h"
+#include "landmarks.h"
+#include "map_server.h"
 #include "mjcf.h"
 #include "obj.h"
 #include "octomap.h"
@@ -88,24 +92,34 @@ const std::vector<ExportFormat>& export_formats() {
       {"ot", "ot", "OctoMap with the odds of each cell; also of a scan",
        "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`", write_octomap, false,
        write_scan_grid},
+      {"map_server", "yaml", "floor plan for map_server: YAML, and PGM beside it",
+       "ROS 2: `ros2 run nav2_map_server map_server --ros-args -p yaml_filename:={0}`; ROS 1: "
+       "`rosrun map_server map_server {0}`",
+       write_map_server},
+      {"graphml", "graphml", "the map of rooms and doors as GraphML",
+       "networkx: `networkx.read_graphml('{0}')`; yEd, Gephi: open {0}", write_graphml},
+      {"dot", "dot", "the map of rooms and doors for Graphviz", "`neato -Tsvg {0} -o rooms.svg`",
+       write_dot},
+      {"landmarks", "landmarks.yaml", "corners and upright edges with their uncertainty",
+       "`yaml.safe_load(open('{0}'))['landmarks']`", write_landmarks_yaml},
+      {"csv", "landmarks.csv", "the same landmarks as a table", "`pandas.read_csv('{0}')`",
+       write_landmarks_csv},
       {"json", "json", "the world itself, world.json", "`scanworld info {0}`", write_json, true},
   };
   return formats;
 }
 
 const ExportFormat& export_format(const std::filesystem::path& path, const std::string& name) {
-  const std::string wanted = !name.empty()                   ? name
-                             : lower_extension(path).empty() ? ""
-                                                             : lower_extension(path).substr(1);
-  const auto& formats = export_formats();
-  const auto found = std::find_if(formats.begin(), formats.end(), [&](const ExportFormat& f) {
-    return f.name == wanted || f.extension == wanted;
-  });
-  if (found != formats.end()) return *found;
+  // "x.landmarks.yaml" is landmarks, though "x.yaml" is something else.
+  const std::string last = lower_extension(path), both = lower_extension(path.stem()) + last;
   std::string names;
-  for (const ExportFormat& f : formats) names += (names.empty() ? "" : ", ") + f.name;
-  throw Error(Cause::usage, fmt::format("{}: '{}' is no export format; there are {}", path.string(),
-                                        wanted, names));
+  for (const std::string& wanted : {"." + name, name.empty() ? both : "", name.empty() ? last : ""})
+    for (const ExportFormat& f : export_formats())
+      if (wanted == "." + f.name || wanted == "." + f.extension) return f;
+  for (const ExportFormat& f : export_formats()) names += (names.empty() ? "" : ", ") + f.name;
+  throw Error(Cause::usage,
+              fmt::format("{}: '{}' is no export format; there are {}", path.string(),
+                          name.empty() && !last.empty() ? last.substr(1) : name, names));
 }
 
 void export_world(const World& world, const std::filesystem::path& path,

@@ -29,9 +29,12 @@ struct ExportOptions {
   bool color_by_kind = false;  // instead of the scan's colours
   bool merge = false;          // all that is seen in one mesh, for engines that trace rays in one
   bool physics = false;        // glTF: with the solids, by extensions that are drafts
-  double resolution = 0.05;    // [m] edge of the cells of grids
-  bool open_glass = false;     // grids: panes are no obstacles, as to a lidar
+  double resolution = 0.05;    // [m] edge of the cells of grids and maps
+  bool open_glass = false;     // grids and maps: panes are no obstacles, as to a lidar
   std::size_t min_points = 1;  // grids of scans: a cell with fewer points has none
+  // [m] over the floor, between which things are in a robot's way (FloorPlanOptions)
+  double band_low = 0.1, band_high = 1.8;
+  int storey = -1;  // of maps of one: 0 for the lowest; -1 for that of the main floor
   ExportBudget budget;
 };
 

@@ -9,6 +9,7 @@
 #include "export.h"
 #include "world/colliders.h"
 #include "world/level.h"
+#include "world/rooms.h"
 #include "world/thickness.h"
 
 namespace scanworld {
@@ -70,6 +71,10 @@ World prepare_export(World world, const ExportOptions& options) {
   if (world.colliders.empty()) {
     set_thickness(world, pair_faces(world));
     world.colliders = make_colliders(world);
+  }
+  if (world.rooms.empty()) {
+    RoomMap map = find_rooms(world);
+    world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
   }
   if (options.color_by_kind)
     for (Surface& s : world.surfaces) s.color.reset();

@@ -102,6 +102,8 @@ TEST_CASE("an empty world, one surface and a world five kilometres wide are writ
     const auto write = [&] { export_world(wide, folder / ("wide." + format.extension)); };
     if (format.name == "bt" || format.name == "ot")  // more cells than there are
       CHECK(contains(error_of(Cause::usage, write), "a resolution of 0.58 m would do"));
+    else if (format.name == "map_server")
+      CHECK(contains(error_of(Cause::usage, write), "5000 m by 3750 m"));
     else
       write();
   }
