@@ -92,10 +92,10 @@ const std::vector<ExportFormat>& export_formats() {
       {"ot", "ot", "OctoMap with the odds of each cell; also of a scan",
        "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`", write_octomap, false,
        write_scan_grid},
-      {"map_server", "yaml", "floor plan for map_server: YAML, and PGM beside it",
+      {"map_server", "yaml", "floor plan for map_server: YAML, and PGM beside it; also of a scan",
        "ROS 2: `ros2 run nav2_map_server map_server --ros-args -p yaml_filename:={0}`; ROS 1: "
        "`rosrun map_server map_server {0}`",
-       write_map_server},
+       write_map_server, false, write_scan_map},
       {"graphml", "graphml", "the map of rooms and doors as GraphML",
        "networkx: `networkx.read_graphml('{0}')`; yEd, Gephi: open {0}", write_graphml},
       {"dot", "dot", "the map of rooms and doors for Graphviz", "`neato -Tsvg {0} -o rooms.svg`",

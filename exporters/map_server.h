@@ -16,4 +16,11 @@ namespace scanworld {
 void write_map_server(const std::filesystem::path& path, const World& world,
                       const ExportOptions& options);
 
+// The same straight from a scan, whose z is up: each cell has how likely one of the occupancy
+// grid's cells over it, in the band, is occupied (mode raw: 0 to 100 per cent, 255 for unknown).
+// Free cells need viewpoints. The floor is the lowest layer of cells with at least half as many
+// hits as the fullest one.
+void write_scan_map(const std::filesystem::path& path, const PointCloud& scan,
+                    const ExportOptions& options);
+
 }  // namespace scanworld

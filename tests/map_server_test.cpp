@@ -19,7 +19,8 @@ namespace {
 struct ServedMap {
   double resolution = 0, x = 0, y = 0, yaw = 0;
   std::size_t width = 0, height = 0;
-  std::vector<int> cells;  // row by row from the lowest y: 100 occupied, 0 free, -1 unknown
+  // Row by row from the lowest y: 100 occupied, 0 free, -1 unknown, in mode raw also between.
+  std::vector<int> cells;
 
   int at(const Vec2& p) const {
     const auto column = static_cast<long>(std::floor((p.x() - x) / resolution)),
@@ -31,7 +32,7 @@ struct ServedMap {
   }
 };
 
-ServedMap serve(const std::filesystem::path& yaml) {
+ServedMap serve(const std::filesystem::path& yaml, const std::string& mode = "trinary") {
   std::map<std::string, std::string> keys;
   std::istringstream lines(read_file(yaml));
   for (std::string line; std::getline(lines, line);) {
@@ -42,7 +43,7 @@ ServedMap serve(const std::filesystem::path& yaml) {
   }
   ServedMap map;
   map.resolution = std::stod(keys.at("resolution"));
-  CHECK(keys.at("mode") == "trinary");
+  CHECK(keys.at("mode") == mode);
   CHECK(keys.at("negate") == "0");
   const double occupied = std::stod(keys.at("occupied_thresh")),
                free = std::stod(keys.at("free_thresh"));
@@ -65,6 +66,11 @@ ServedMap serve(const std::filesystem::path& yaml) {
   CHECK(pgm.peek() == std::istringstream::traits_type::eof());
   for (std::size_t row = map.height; row-- > 0;)
     for (std::size_t column = 0; column < map.width; ++column) {
+      if (mode == "raw") {
+        const int value = static_cast<unsigned char>(pixels[row * map.width + column]);
+        map.cells.push_back(value <= 100 ? value : -1);
+        continue;
+      }
       const double p = (255 - static_cast<unsigned char>(pixels[row * map.width + column])) / 255.0;
       map.cells.push_back(p > occupied ? 100 : p < free ? 0 : -1);
     }
@@ -163,4 +169,25 @@ TEST_CASE("an empty world has a map of one unknown cell") {
   const TempFolder folder;
   export_world({}, folder / "e.yaml");
   CHECK(serve(folder / "e.yaml").cells == std::vector<int>{-1});
+}
+
+TEST_CASE("the map of a scan has odds in the room, walls around it, and nothing known outside") {
+  PointCloud scan = room_points({4, 3, 2.5}, 0.03, 0.004);
+  scan.origin = {500000, 5000000, 100};
+  const TempFolder folder;
+  export_scan(scan, folder / "hits.yaml");
+  const ServedMap hits = serve(folder / "hits.yaml", "raw");
+  CHECK(std::all_of(hits.cells.begin(), hits.cells.end(),
+                    [](int c) { return c == -1 || c > 60; }));  // nobody looked through anything
+  for (const Vec3& from : {Vec3(1, 1, 1), Vec3(2, 2, 1.2), Vec3(3, 1, 1.5), Vec3(1, 2, 1.1)})
+    scan.viewpoints.push_back(from);
+  export_scan(scan, folder / "seen.yaml");
+  const ServedMap map = serve(folder / "seen.yaml", "raw");
+  const auto at = [&](double x, double y) { return map.at(Vec2(500000 + x, 5000000 + y)); };
+  for (double x = 0.2; x < 3.9; x += 0.3)
+    for (double y = 0.2; y < 2.9; y += 0.3) CHECK((at(x, y) >= 0 && at(x, y) < 50));
+  int walls = 0;
+  for (double x = 0.1; x < 3.9; x += 0.1) walls += std::max(at(x, -0.02), at(x, 0.02)) >= 65;
+  CHECK(walls > 35);
+  for (double x = -0.05; x < 4; x += 0.5) CHECK(at(x, -0.06) == -1);
 }

@@ -4,7 +4,6 @@
 // What the schemas of USD and UsdPhysics ask of a file. That it parses is for three.js to tell
 // (consumers_test.cpp).
 #include <map>
-#include <regex>
 #include <set>
 
 #include "exporters/bodies.h"
@@ -22,33 +21,52 @@ struct Prim {
   std::map<std::string, std::string> fields;  // with the metadata
 };
 
+// What is between two texts in a line; nothing where they are not there.
+std::string between(const std::string& line, const std::string& begin, const std::string& end) {
+  const std::size_t from = line.find(begin);
+  if (from == std::string::npos) return "";
+  const std::size_t to = line.find(end, from + begin.size());
+  return to == std::string::npos ? "" : line.substr(from + begin.size(), to - from - begin.size());
+}
+
 // The prims of a file that is written a field a line.
 std::vector<Prim> prims_in(const std::string& text) {
-  static const std::regex opening("def (\\w+) \"([^\"]*)\".*"),
-      field("(?:uniform )?(?:[\\w\\[\\]]+ )?([\\w:]+) = (.*)");
   std::vector<Prim> prims;
   std::vector<std::size_t> open;
   std::istringstream lines(text);
   std::size_t newest = 0;
   for (std::string line; std::getline(lines, line);) {
     line.erase(0, line.find_first_not_of(' '));
-    std::smatch match;
-    if (std::regex_match(line, match, opening)) {
+    const std::size_t equals = line.find(" = ");
+    if (line.starts_with("def ")) {
       const std::string parent = open.empty() ? "" : prims[open.back()].path;
       newest = prims.size();
-      prims.push_back({match[1], parent + "/" + match[2].str(), {}});
+      prims.push_back({between(line, "def ", " "), parent + "/" + between(line, "\"", "\""), {}});
     } else if (line == "{") {
       open.push_back(newest);
     } else if (line == "}") {
-      open.pop_back(), newest = open.empty() ? 0 : open.back();
-    } else if (!prims.empty() && std::regex_match(line, match, field)) {
-      prims[newest].fields[match[1]] = match[2];
-    } else if (line.starts_with("prepend apiSchemas = ")) {
-      prims[newest].fields["apiSchemas"] = line;
+      open.pop_back();
+      newest = open.empty() ? 0 : open.back();
+    } else if (!prims.empty() && equals != std::string::npos) {
+      const std::string left = line.substr(0, equals);
+      prims[newest].fields[left.substr(left.rfind(' ') + 1)] = line.substr(equals + 3);
     }
   }
   CHECK(open.empty());
   return prims;
+}
+
+// Letters, digits and '_', not beginning with a digit, each after a slash.
+bool is_prim_path(const std::string& path) {
+  bool may_be_digit = false;
+  for (const char c : path) {
+    const bool is_digit = std::isdigit(static_cast<unsigned char>(c));
+    if (c != '/' && c != '_' && !std::isalpha(static_cast<unsigned char>(c)) && !is_digit)
+      return false;
+    if (is_digit && !may_be_digit) return false;
+    may_be_digit = c != '/';
+  }
+  return path.starts_with("/") && may_be_digit;
 }
 
 std::string usda_of(const World& world, const std::string& name,
@@ -71,7 +89,7 @@ TEST_CASE("every solid is a static collider, and nothing else is one") {
   std::size_t colliders = 0;
   for (const Prim& prim : prims) {
     CHECK(paths.insert(prim.path).second);
-    CHECK(std::regex_match(prim.path, std::regex("(/[A-Za-z_][A-Za-z0-9_]*)+")));
+    CHECK(is_prim_path(prim.path));
     const auto schemas = prim.fields.find("apiSchemas");
     const std::string api = schemas == prim.fields.end() ? "" : schemas->second;
     const bool is_collider = contains(api, "\"PhysicsCollisionAPI\"");
