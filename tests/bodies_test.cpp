@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "support/engines.h"
 #include "support/scenes.h"
 #include "world/colliders.h"
 #include "world/solids.h"
@@ -13,22 +14,6 @@ using namespace scanworld;
 using namespace scanworld::test;
 
 namespace {
-
-// The corners of a body, in the world's axes.
-std::vector<Vec3> corners_of(const ExportBody& body) {
-  std::vector<Vec3> corners;
-  if (const auto* box = std::get_if<BoxShape>(&body.shape))
-    corners = mesh_of(OrientedBox{.size = box->size}).vertices;
-  else if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
-    corners = convex->mesh.vertices;
-  else
-    corners = mesh_of(Cylinder{.radius = std::get<CylinderShape>(body.shape).radius,
-                               .height = std::get<CylinderShape>(body.shape).height},
-                      Vec3::UnitZ())
-                  .vertices;
-  for (Vec3& c : corners) c = body.position + body.rotation * c;
-  return corners;
-}
 
 Box3 box_of(const std::vector<Vec3>& points) {
   Box3 box;

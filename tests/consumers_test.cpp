@@ -7,13 +7,11 @@
 #include "exporters/assimp.h"
 #include "exporters/bodies.h"
 #include "exporters/export.h"
-#include "exporters/parts.h"
 #include "mesh_rays.h"
 #include "support/engines.h"
 #include "support/scenes.h"
 #include "world/level.h"
 #include "world/ray_scene.h"
-#include "world/solids.h"
 #include "world/triangulate.h"
 #include "world/world_json.h"
 
@@ -405,35 +403,5 @@ TEST_CASE("an empty world and a world five kilometres wide load in every engine"
     };
     CHECK_MESSAGE(names({}, "empty").size() == 1, engine.name);
     CHECK_MESSAGE(names(one, "one") == names(wide, "wide"), engine.name);
-  }
-}
-
-TEST_CASE("three.js finds every surface and obstacle in GLB and USD, by name, size and place") {
-  if (!has_node_packages()) return;
-  for (const std::string& name : kPlaces) {
-    const World world = place(name);
-    for (const char* extension : {"glb", "usda"}) {
-      const TempFolder folder;
-      const auto file = folder / (std::string("world.") + extension);
-      export_world(world, file);
-      const Outcome outcome =
-          run_program({"node", node_script("read_with_three.mjs").string(), file.string()});
-      CHECK_MESSAGE(outcome.code == 0, outcome.err);
-      std::istringstream lines(outcome.out);
-      for (const ExportPart& part : export_parts(world)) {
-        std::string line;
-        REQUIRE(std::getline(lines, line));
-        const std::size_t blank = line.find(' ');
-        CHECK(line.substr(0, blank) == part.name);
-        const std::vector<double> n = numbers_in(line.substr(blank));
-        REQUIRE(n.size() == 8);
-        CHECK(n[0] == static_cast<double>(part.mesh.triangles.size()));
-        CHECK(n[1] == doctest::Approx(area_of(part.mesh)).scale(0).epsilon(1e-4));
-        Box3 box;
-        for (const Vec3& v : part.mesh.vertices) box.extend(Vec3(v.x(), v.z(), -v.y()));
-        CHECK((Vec3(n[2], n[3], n[4]) - box.min()).norm() < 1e-4);
-        CHECK((Vec3(n[5], n[6], n[7]) - box.max()).norm() < 1e-4);
-      }
-    }
   }
 }

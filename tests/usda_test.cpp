@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the schemas of USD and UsdPhysics ask of a file. That it parses is for three.js to tell
-// (consumers_test.cpp).
+// (three_test.cpp).
 #include <map>
 #include <set>
 

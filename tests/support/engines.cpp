@@ -5,6 +5,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "world/solids.h"
+
 namespace scanworld::test {
 
 std::filesystem::path node_script(const std::string& name) {
@@ -43,6 +45,21 @@ std::vector<std::string> ask(const Engine& engine, const std::filesystem::path& 
 std::vector<double> numbers_in(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<double>(in), {}};
+}
+
+std::vector<Vec3> corners_of(const ExportBody& body) {
+  std::vector<Vec3> corners;
+  if (const auto* box = std::get_if<BoxShape>(&body.shape))
+    corners = mesh_of(OrientedBox{.size = box->size}).vertices;
+  else if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
+    corners = convex->mesh.vertices;
+  else
+    corners = mesh_of(Cylinder{.radius = std::get<CylinderShape>(body.shape).radius,
+                               .height = std::get<CylinderShape>(body.shape).height},
+                      Vec3::UnitZ())
+                  .vertices;
+  for (Vec3& c : corners) c = body.position + body.rotation * c;
+  return corners;
 }
 
 }  // namespace scanworld::test

@@ -5,6 +5,7 @@
 // (tests/consumers/consumer.h).
 #pragma once
 
+#include "exporters/bodies.h"
 #include "support.h"
 
 namespace scanworld::test {
@@ -33,5 +34,8 @@ std::vector<std::string> ask(const Engine& engine, const std::filesystem::path& 
                              const std::string& orders);
 
 std::vector<double> numbers_in(const std::string& line);
+
+// The corners of a body, in the world's axes.
+std::vector<Vec3> corners_of(const ExportBody& body);
 
 }  // namespace scanworld::test
