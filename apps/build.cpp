@@ -95,9 +95,7 @@ void add_provenance(World& world, const BuildRequest& request, const PointCloud&
 }
 
 void write_json(const std::filesystem::path& path, const Json& json) {
-  OutputFile file(path);
-  file.write(json.dump(2) + "\n");
-  file.commit();
+  write_text(path, json.dump(2) + "\n");
 }
 
 std::string summary(const BuildRequest& request, const World& world, const Json& report) {
@@ -116,8 +114,9 @@ void write_files(const std::filesystem::path& folder, const BuildRequest& reques
                  const std::vector<ExportFormat>& formats, const PointCloud& cloud,
                  const ReconstructResult& result) {
   write_world(folder / "world.json", result.world);
+  const World prepared = formats.empty() ? World{} : prepare_export(result.world, {});
   for (const ExportFormat& format : formats)
-    export_world(result.world, folder / ("world." + format.extension), {}, format.name);
+    format.write(folder / ("world." + format.extension), prepared, {});
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
 }
 

@@ -116,9 +116,7 @@ void write_dae(const std::filesystem::path& path, const World& world,
   std::string text = written(path, *scene_of(export_parts(world, options)), "collada");
   // The same world gives the same file: not the time of writing.
   for (const char* tag : {"created", "modified"}) fill_element(text, tag, "2000-01-01T00:00:00");
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
+  write_text(path, text);
 }
 
 void write_3mf(const std::filesystem::path& path, const World& world,
@@ -128,9 +126,7 @@ void write_3mf(const std::filesystem::path& path, const World& world,
     for (Vec3& v : part.mesh.vertices) v *= 1000;  // the format's unit is the millimetre
   std::string zip = written(path, *scene_of(parts), "3mf");
   forget_times(zip);
-  OutputFile file(path);
-  file.write(zip);
-  file.commit();
+  write_text(path, zip);
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {

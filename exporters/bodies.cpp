@@ -115,6 +115,10 @@ std::string rpy_text(const Eigen::Quaterniond& q) {
   return text_of(Vec3(std::atan2(-r(1, 2), r(1, 1)), pitch, 0));  // roll and yaw are one
 }
 
+Eigen::Quaterniond y_up_turn() {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
+}
+
 Vec3 gravity_of(const World& world) { return -9.81 * world.frame.up; }
 
 }  // namespace scanworld

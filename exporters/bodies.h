@@ -42,6 +42,9 @@ std::string text_of(const Vec3& v);                  // "x y z"
 std::string wxyz_text(const Eigen::Quaterniond& q);  // "w x y z"
 std::string rpy_text(const Eigen::Quaterniond& q);   // roll, pitch, yaw about fixed axes [rad]
 
+// The turn from Z up to Y up.
+Eigen::Quaterniond y_up_turn();
+
 // Gravity [m/s2], against the world's up.
 Vec3 gravity_of(const World& world);
 

@@ -98,18 +98,13 @@ class BulletWorld : public btDiscreteDynamicsWorld {
   }
 };
 
-Mesh mesh_of(const std::vector<ExportPart>& parts) {
-  Mesh all;
-  for (const ExportPart& part : parts) append(all, part.mesh);
-  return all;
-}
-
 }  // namespace
 
 void write_bullet(const std::filesystem::path& path, const World& world,
                   const ExportOptions& options) {
   const std::vector<ExportBody> bodies = export_bodies(world, options);
-  const Mesh mesh = mesh_of(export_parts(world));
+  const std::vector<ExportPart> seen = export_parts(world, {.merge = true});
+  const Mesh mesh = seen.empty() ? Mesh{} : seen[0].mesh;
   if (mesh.triangles.size() > kMostTriangles)
     throw Error(Cause::usage, path.string() + ": " + std::to_string(mesh.triangles.size()) +
                                   " triangles; Bullet takes " + std::to_string(kMostTriangles));

@@ -52,9 +52,7 @@ void write_dot(const std::filesystem::path& path, const World& world, const Expo
     if (door.length) text += fmt::format(", length={:.6f}", *door.length);
     text += "];\n";
   }
-  OutputFile file(path);
-  file.write(text + "}\n");
-  file.commit();
+  write_text(path, text + "}\n");
 }
 
 }  // namespace scanworld

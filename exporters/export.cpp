@@ -34,6 +34,18 @@ void write_json(const std::filesystem::path& path, const World& world, const Exp
   write_world(path, world);
 }
 
+template <OctreeKind kind>
+void write_octree(const std::filesystem::path& path, const World& world,
+                  const ExportOptions& options) {
+  write_octomap(path, world, options, kind);
+}
+
+template <OctreeKind kind>
+void write_scan_octree(const std::filesystem::path& path, const PointCloud& scan,
+                       const ExportOptions& options) {
+  write_scan_grid(path, scan, options, kind);
+}
+
 void check_fits(const ExportFormat& format, const std::filesystem::path& path,
                 const ExportOptions& options) {
   if (options.y_up && !format.any_up)
@@ -88,10 +100,10 @@ const std::vector<ExportFormat>& export_formats() {
       {"bt", "bt", "OctoMap, cells free, occupied or unknown; also of a scan",
        "`octovis {0}`; C++: `octomap::OcTree tree(\"{0}\")`; ROS: `rosrun octomap_server "
        "octomap_server_node {0}`",
-       write_octomap, false, write_scan_grid},
+       write_octree<OctreeKind::binary>, false, write_scan_octree<OctreeKind::binary>},
       {"ot", "ot", "OctoMap with the odds of each cell; also of a scan",
-       "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`", write_octomap, false,
-       write_scan_grid},
+       "`octovis {0}`; C++: `octomap::AbstractOcTree::read(\"{0}\")`",
+       write_octree<OctreeKind::log_odds>, false, write_scan_octree<OctreeKind::log_odds>},
       {"map_server", "yaml", "floor plan for map_server: YAML, and PGM beside it; also of a scan",
        "ROS 2: `ros2 run nav2_map_server map_server --ros-args -p yaml_filename:={0}`; ROS 1: "
        "`rosrun map_server map_server {0}`",
@@ -162,9 +174,7 @@ std::vector<LeftOut> export_all(const World& world, const std::filesystem::path&
       if (error.cause != Cause::usage) throw;
       left_out.push_back({format.name, error.what()});
     }
-  OutputFile file(output.path() / "README.md");
-  file.write(readme(left_out));
-  file.commit();
+  write_text(output.path() / "README.md", readme(left_out));
   output.commit();
   return left_out;
 }

@@ -15,6 +15,7 @@ struct ExportBudget {
   std::size_t solids = 0;         // to collide with
   std::size_t hulls = 0;          // of these, that are neither boxes nor cylinders
   std::size_t hull_vertices = 0;  // of each such
+  bool operator==(const ExportBudget&) const = default;
 };
 
 // Sets caps from "solids=64,hull_vertices=60". Throws usage naming what is no cap or number.

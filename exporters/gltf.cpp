@@ -24,7 +24,7 @@ constexpr const char* kRigidBodies = "KHR_physics_rigid_bodies";
 
 // From Z-up to Y-up, for vertices and for orientations.
 Vec3f y_up(const Vec3& v) { return Vec3(v.x(), v.z(), -v.y()).cast<float>(); }
-const Eigen::Quaterniond kYUp(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
+const Eigen::Quaterniond kYUp = y_up_turn();
 
 tinygltf::Value list_of(const Vec3& v) {
   return tinygltf::Value({tinygltf::Value(v.x()), tinygltf::Value(v.y()), tinygltf::Value(v.z())});
@@ -235,9 +235,7 @@ void write_glb(const std::filesystem::path& path, const World& world,
   Builder builder(world);
   for (const ExportPart& part : export_parts(world, options)) builder.add(part);
   if (options.physics) builder.add(export_bodies(world, options), options.friction);
-  OutputFile file(path);
-  file.write(builder.write());
-  file.commit();
+  write_text(path, builder.write());
 }
 
 }  // namespace scanworld

@@ -68,9 +68,7 @@ void write_graphml(const std::filesystem::path& path, const World& world, const 
   XmlElement& graph = root.add({"graph", {{"id", "rooms"}, {"edgedefault", "undirected"}}, {}, ""});
   for (const PlaceNode& room : map.nodes) graph.add(node_of(room));
   for (const PlaceEdge& door : map.edges) graph.add(edge_of(door));
-  OutputFile file(path);
-  file.write(xml_document(root));
-  file.commit();
+  write_text(path, xml_document(root));
 }
 
 }  // namespace scanworld

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "octree_file.h"
-
 namespace scanworld {
 
 namespace {
@@ -37,16 +35,18 @@ OctreeNode add_blocks(const OccupancyGrid& grid, std::uint64_t first, int level,
 
 }  // namespace
 
-void write_grid(const std::filesystem::path& path, const OccupancyGrid& grid) {
-  OctreeNodes nodes(octree_kind(path));
+void write_grid(const std::filesystem::path& path, const OccupancyGrid& grid, OctreeKind kind) {
+  OctreeNodes nodes(kind);
   add_blocks(grid, 0, kOctreeDepth - 3, nodes);
   nodes.write(path, grid.options.resolution, {.origin = grid.origin});
 }
 
 void write_scan_grid(const std::filesystem::path& path, const PointCloud& scan,
-                     const ExportOptions& options) {
-  write_grid(path, make_occupancy_grid(
-                       scan, {.resolution = options.resolution, .min_points = options.min_points}));
+                     const ExportOptions& options, OctreeKind kind) {
+  write_grid(path,
+             make_occupancy_grid(
+                 scan, {.resolution = options.resolution, .min_points = options.min_points}),
+             kind);
 }
 
 }  // namespace scanworld

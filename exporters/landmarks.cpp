@@ -50,12 +50,6 @@ std::string csv_of(const Landmark& l) {
                      known);
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 void write_landmarks_yaml(const std::filesystem::path& path, const World& world,

@@ -14,11 +14,8 @@ void write_mesh_folder(const std::filesystem::path& folder, const World& world,
   OutputFolder output(folder, kVisualMesh);
   write_obj(output.path() / kVisualMesh, world, options);
   for (const ExportBody& body : bodies)
-    if (const auto* convex = std::get_if<ConvexShape>(&body.shape)) {
-      OutputFile file(output.path() / mesh_file_of(body));
-      file.write(obj_text(body.name, convex->mesh));
-      file.commit();
-    }
+    if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
+      write_text(output.path() / mesh_file_of(body), obj_text(body.name, convex->mesh));
   output.commit();
 }
 

@@ -126,9 +126,7 @@ void write_mjcf(const std::filesystem::path& path, const World& world,
   mujoco.add(defaults(options));
   mujoco.add(std::move(assets));
   mujoco.add(std::move(body));
-  OutputFile file(path);
-  file.write(xml_document(mujoco));
-  file.commit();
+  write_text(path, xml_document(mujoco));
 }
 
 }  // namespace scanworld

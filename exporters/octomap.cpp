@@ -50,13 +50,11 @@ struct Solid {
 World with_panes(World world) {
   for (const Opening& o : world.openings) {
     if (!o.glass) continue;
-    for (const Surface& s : world.surfaces)
-      if (s.id == o.surface) {
-        Surface pane = s;
-        pane.outer = o.loop, pane.holes.clear();
-        world.surfaces.push_back(std::move(pane));
-        break;
-      }
+    if (const Surface* s = find_surface(world, o.surface)) {
+      Surface pane = *s;
+      pane.outer = o.loop, pane.holes.clear();
+      world.surfaces.push_back(std::move(pane));
+    }
   }
   return world;
 }
@@ -241,9 +239,8 @@ void check_size(const std::filesystem::path& path, const World& world, double re
 }  // namespace
 
 void write_octomap(const std::filesystem::path& path, const World& world,
-                   const ExportOptions& options) {
+                   const ExportOptions& options, OctreeKind kind) {
   check_size(path, world, options.resolution);
-  const OctreeKind kind = octree_kind(path);
   const Scenery scenery(options.open_glass ? world : with_panes(world), options.resolution, kind);
   OctreeNodes nodes(kind);
   WorldTree(scenery).add(nodes);

@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "export_options.h"
+#include "octree_file.h"
 #include "world/world.h"
 
 namespace scanworld {
 
-// Writes a world as an OctoMap, metres, in the world's frame: `.bt`, or `.ot` where the extension
-// says so.
+// Writes a world as an OctoMap, metres, in the world's frame.
 //
 // Occupied is every cell that has some of a surface, a pane of glass (a robot does not go
 // through it; a lidar would: options.open_glass) or an obstacle in it, or next
@@ -21,6 +21,6 @@ namespace scanworld {
 // Throws usage naming the file, the value and what would do, where the world is too large for the
 // resolution: for the tree, or for more than some 100 million cells.
 void write_octomap(const std::filesystem::path& path, const World& world,
-                   const ExportOptions& options);
+                   const ExportOptions& options, OctreeKind kind);
 
 }  // namespace scanworld

@@ -40,10 +40,6 @@ constexpr std::size_t kLogOddsHead = sizeof(float) + 1;  // bytes: the value, an
 
 }  // namespace
 
-OctreeKind octree_kind(const std::filesystem::path& path) {
-  return lower_extension(path) == ".ot" ? OctreeKind::log_odds : OctreeKind::binary;
-}
-
 OctreeNode OctreeNodes::add_leaf(float log_odds) {
   if (kind_ == OctreeKind::binary) {
     log_odds = log_odds < 0 ? kFree : kOccupied;

@@ -18,9 +18,6 @@ enum class OctreeKind {
             // of their children
 };
 
-// The kind that the extension tells; `binary` unless it is ".ot".
-OctreeKind octree_kind(const std::filesystem::path& path);
-
 // A cube of the tree: nothing known of it, the same all over, or divided.
 struct OctreeNode {
   enum class Is { unknown, leaf, inner } is = Is::unknown;

@@ -24,6 +24,7 @@ void check(const char* what, std::size_t count, std::size_t most) {
 
 void check_budget(const World& world, const ExportOptions& options) {
   const ExportBudget& budget = options.budget;
+  if (budget == ExportBudget{}) return;
   std::size_t hulls = 0, vertices = 0;
   const std::vector<ExportBody> bodies = export_bodies(world, options);
   for (const ExportBody& body : bodies)
@@ -79,9 +80,7 @@ World prepare_export(World world, const ExportOptions& options) {
   if (options.color_by_kind)
     for (Surface& s : world.surfaces) s.color.reset();
   check_budget(world, options);
-  if (options.y_up)
-    world = moved(std::move(world), Eigen::Quaterniond(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX())),
-                  Vec3::Zero());
+  if (options.y_up) world = moved(std::move(world), y_up_turn(), Vec3::Zero());
   return world;
 }
 

@@ -88,12 +88,6 @@ XmlElement world_sdf(const std::string& name, const std::string& model, const Wo
           ""};
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 void write_sdf(const std::filesystem::path& path, const World& world,

@@ -148,9 +148,7 @@ void write_usda(const std::filesystem::path& path, const World& world,
   write_material(out, options.friction);
   out.close();
   write_scene(out, world);
-  OutputFile file(path);
-  file.write(out.text);
-  file.commit();
+  write_text(path, out.text);
 }
 
 }  // namespace scanworld

@@ -76,6 +76,12 @@ void OutputFile::commit() {
   }
 }
 
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 OutputFolder::OutputFolder(fs::path path, std::string_view mark)
     : path_(place(path)), part_(beside(path_, "part")) {
   std::error_code error;

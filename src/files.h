@@ -39,6 +39,9 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
+// Writes a whole file of text or bytes, as OutputFile does.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
 // A folder that appears whole or not at all. It takes the place of an older folder only where that
 // one holds nothing or a file named `mark`, so that no folder is lost by a slip of the keyboard.
 class OutputFolder {

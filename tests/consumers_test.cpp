@@ -24,12 +24,6 @@ const std::vector<std::string> kPlaces = {"room", "office", "stairs"};
 
 World place(const std::string& name) { return read_world(in_project("worlds/" + name + ".json")); }
 
-World scaled(World world, double factor) {
-  for (Vec3& v : world.vertices) v *= factor;
-  for (Surface& s : world.surfaces) s.plane.offset *= factor;
-  return world;
-}
-
 // Engines have round cylinders, where our rays meet 24 flat faces.
 World without_cylinders(World world) {
   std::erase_if(world.obstacles,
@@ -150,18 +144,6 @@ std::vector<double> depths_in(const Engine& engine, const std::filesystem::path&
   return depths;
 }
 
-// A world as assimp finds it in a file of triangles, in the world's own axes and metres.
-MeshRays mesh_in(const std::string& format, const World& world) {
-  const TempFolder folder;
-  export_world(world, folder / ("world." + format));
-  Mesh mesh = read_mesh(folder / ("world." + format));
-  for (Vec3& v : mesh.vertices) {
-    if (format == "glb") v = Vec3(v.x(), -v.z(), v.y());
-    if (format == "3mf") v /= 1000;
-  }
-  return MeshRays(std::move(mesh));
-}
-
 std::vector<double> depths_in(const MeshRays& mesh, const std::vector<Ray>& rays) {
   std::vector<double> depths;
   for (const Ray& r : rays) {
@@ -234,7 +216,7 @@ TEST_CASE("the same rays meet the world at the same depth in every engine") {
         CHECK_MESSAGE(share_alike(scene, rays, depths_in(engine, file, rays, order)) == 1,
                       name << " in " << engine.name << ": " << order);
     }
-    CHECK_MESSAGE(share_alike(scene, rays, depths_in(mesh_in("stl", world), rays)) == 1,
+    CHECK_MESSAGE(share_alike(scene, rays, depths_in(MeshRays(reread(world, "stl")), rays)) == 1,
                   name << " in STL");
   }
 }
@@ -252,7 +234,7 @@ TEST_CASE("rays pass through every door, in every engine as in the world") {
       }
     const TempFolder folder;
     for (const char* format : {"stl", "obj", "ply", "dae", "3mf", "glb"})
-      for (double depth : depths_in(mesh_in(format, world), rays))
+      for (double depth : depths_in(MeshRays(reread(world, format)), rays))
         CHECK_MESSAGE((depth < 0 || depth > 0.6), name << " in " << format);
     for (const Engine& engine : present({kBullet, kBullet64, kMuJoCo, kMuJoCo3, kDart, kUrdf})) {
       const auto file = folder / ("world." + engine.extension);

@@ -7,6 +7,7 @@
 
 #include "exporters/assimp.h"
 #include "exporters/bodies.h"
+#include "support/engines.h"
 #include "support/scenes.h"
 #include "world/solids.h"
 #include "world/triangulate.h"
@@ -43,18 +44,9 @@ Mesh mesh_of_world(const World& world) {
 // The formats that hold triangles and that assimp reads.
 const std::vector<std::string> kMeshFormats = {"stl", "obj", "glb", "ply", "dae", "3mf"};
 
-Vec3 from_y_up(const Vec3& v) { return {v.x(), -v.z(), v.y()}; }
-
 // Writes the world in a format, has it read by assimp, and compares.
 void check_reread(const World& world, const std::string& format) {
-  const TempFolder folder;
-  const auto path = folder / ("world." + format);
-  export_world(world, path);
-  Mesh back = read_mesh(path);
-  if (format == "glb")
-    for (Vec3& v : back.vertices) v = from_y_up(v);
-  if (format == "3mf")
-    for (Vec3& v : back.vertices) v /= 1000;  // millimetres
+  const Mesh back = reread(world, format);
   const Measures expected = measure(mesh_of_world(world)), found = measure(back);
   CHECK(found.triangles == expected.triangles);
   CHECK(found.area == doctest::Approx(expected.area).scale(0).epsilon(1e-5));
@@ -92,9 +84,7 @@ TEST_CASE("the same world gives the same bytes in every format") {
 
 TEST_CASE("an empty world, one surface and a world five kilometres wide are written or refused") {
   const TempFolder folder;
-  World wide = small_world();
-  for (Vec3& v : wide.vertices) v *= 1250;
-  for (Surface& s : wide.surfaces) s.plane.offset *= 1250;
+  const World wide = scaled(small_world(), 1250);
   for (const ExportFormat& format : export_formats()) {
     const auto path = folder / ("empty." + format.extension);
     export_world({}, path);

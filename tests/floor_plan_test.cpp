@@ -173,9 +173,7 @@ TEST_CASE("worlds without a floor have plans that know no free cell") {
 }
 
 TEST_CASE("a plan that would be too large is refused, and the number is named") {
-  World wide = small_world();
-  for (Vec3& v : wide.vertices) v *= 1250;
-  for (Surface& s : wide.surfaces) s.plane.offset *= 1250;
+  const World wide = scaled(small_world(), 1250);
   const std::string text = error_of(Cause::usage, [&] { make_floor_plan(wide); });
   CHECK(contains(text, "5000 m by 3750 m"));
   CHECK(contains(text, "cells of 0.05 m"));

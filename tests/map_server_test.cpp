@@ -156,9 +156,7 @@ TEST_CASE("the pair of files has one name, whatever is in it, and appears whole 
   export_world(world, folder / "x.pgm", {}, "map_server");
   CHECK(serve(folder / "x.yaml").cells.size() > 100);
   const TempFolder empty;
-  World wide = small_world();
-  for (Vec3& v : wide.vertices) v *= 1250;
-  for (Surface& s : wide.surfaces) s.plane.offset *= 1250;
+  const World wide = scaled(small_world(), 1250);
   CHECK(contains(error_of(Cause::usage, [&] { export_world(wide, empty / "w.yaml"); }), "0.05 m"));
   CHECK(std::filesystem::is_empty(empty.path()));
   export_world(wide, empty / "w.yaml", {.resolution = 5});

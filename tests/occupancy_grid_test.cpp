@@ -167,7 +167,7 @@ TEST_CASE("without viewpoints there are hits alone; cells with too few points ha
 TEST_CASE("liboctomap reads the probabilities as they are") {
   const TempFolder folder;
   const OccupancyGrid grid = make_occupancy_grid(seen_room(), kTenth);
-  write_grid(folder / "grid.ot", grid);
+  write_grid(folder / "grid.ot", grid, OctreeKind::log_odds);
   const auto tree = read_tree(folder / "grid.ot");
   std::size_t known = 0;
   for (const auto& block : grid.blocks)
@@ -186,7 +186,7 @@ TEST_CASE("liboctomap reads the probabilities as they are") {
   CHECK(tree->size() == nodes);
 
   // A binary file holds what is more likely.
-  write_grid(folder / "grid.bt", grid);
+  write_grid(folder / "grid.bt", grid, OctreeKind::binary);
   octomap::OcTree binary(1.0);
   REQUIRE(binary.readBinary((folder / "grid.bt").string()));
   tree->toMaxLikelihood();
@@ -249,7 +249,7 @@ TEST_CASE("the command makes grids of scans, and says which formats need a world
   const PointCloud back = read_scan({folder / "room.ply"});
   PointCloud seen = back;
   for (const Vec3& v : cloud.viewpoints) seen.viewpoints.push_back(v + cloud.origin - back.origin);
-  write_grid(folder / "expected.ot", make_occupancy_grid(seen, kTenth));
+  write_grid(folder / "expected.ot", make_occupancy_grid(seen, kTenth), OctreeKind::log_odds);
   CHECK(read_file(grid) == read_file(folder / "expected.ot"));
   CHECK(contains(read_file(grid), "origin 524288 0 0\n"));
   CHECK(run({"export", scan, "-o", (folder / "grid.bt").string()}).code == 0);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "exporters/export.h"
 #include "parallel.h"
 #include "support/scenes.h"
 #include "world/assemble.h"
@@ -30,7 +31,7 @@ Vec3 from_octomap(const octomap::point3d& p) { return {p.x(), p.y(), p.z()}; }
 // The tree that liboctomap reads, which checks the number of nodes.
 std::unique_ptr<octomap::OcTree> octomap_of(const World& world, const ExportOptions& options = {}) {
   const TempFolder folder;
-  write_octomap(folder / "world.bt", world, options);
+  write_octomap(folder / "world.bt", world, options, OctreeKind::binary);
   auto tree = std::make_unique<octomap::OcTree>(1.0);
   REQUIRE(tree->readBinary((folder / "world.bt").string()));
   CHECK(tree->getResolution() == options.resolution);
@@ -284,7 +285,7 @@ TEST_CASE("the same world gives the same bytes for any number of threads") {
     std::vector<std::string> files;
     for (int threads : {1, 3}) {
       const ThreadLimit limit(threads);
-      write_octomap(folder / name, world, {});
+      write_octomap(folder / name, world, {}, OctreeKind::binary);
       files.push_back(read_file(folder / name));
     }
     CHECK(files[0] == files[1]);
@@ -294,7 +295,7 @@ TEST_CASE("the same world gives the same bytes for any number of threads") {
 TEST_CASE("the two kinds of file hold the same tree") {
   const World world = shipped("room");
   const TempFolder folder;
-  write_octomap(folder / "a.ot", world, {});
+  write_octomap(folder / "a.ot", world, {}, OctreeKind::log_odds);
   const std::unique_ptr<octomap::AbstractOcTree> any(
       octomap::AbstractOcTree::read((folder / "a.ot").string()));
   auto* odds = dynamic_cast<octomap::OcTree*>(any.get());
@@ -317,7 +318,8 @@ TEST_CASE("an empty world is an empty tree, and one surface is its cells") {
 TEST_CASE("a world that is too large for the tree is refused with the resolution that would do") {
   const TempFolder folder;
   const World wide = square_at({2500, 0, 0});
-  const std::string why = error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", wide, {}); });
+  const std::string why =
+      error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", wide, {}, OctreeKind::binary); });
   CHECK(contains(why, "w.bt"));
   CHECK(contains(why, "2500.5 m"));
   CHECK(contains(why, "0.05 m cells"));
@@ -327,6 +329,16 @@ TEST_CASE("a world that is too large for the tree is refused with the resolution
 
   World large = square_at({0, 0, 0});
   for (Vec3& v : large.vertices) v *= 3000;
-  CHECK(contains(error_of(Cause::usage, [&] { write_octomap(folder / "w.bt", large, {}); }),
+  CHECK(contains(error_of(Cause::usage,
+                          [&] { write_octomap(folder / "w.bt", large, {}, OctreeKind::binary); }),
                  "with 9000000 m2 of surfaces"));
+}
+
+TEST_CASE("the format by name decides which kind of OctoMap is written, not the file's name") {
+  const TempFolder folder;
+  const World world = read_world(in_project("worlds/room.json"));
+  export_world(world, folder / "grid", {}, "ot");
+  CHECK(read_file(folder / "grid").starts_with("# Octomap OcTree file\n"));
+  export_world(world, folder / "grid.ot", {}, "bt");
+  CHECK(read_file(folder / "grid.ot").starts_with("# Octomap OcTree binary file\n"));
 }

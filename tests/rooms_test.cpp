@@ -120,9 +120,7 @@ TEST_CASE("moving a world moves the centres of its rooms") {
 TEST_CASE("an open field, a floor alone and nothing at all have no rooms") {
   CHECK(find_rooms({}).rooms.empty());
   CHECK(find_rooms(small_world()).rooms.empty());
-  World wide = small_world();
-  for (Vec3& v : wide.vertices) v *= 1250;
-  for (Surface& s : wide.surfaces) s.plane.offset *= 1250;
+  const World wide = scaled(small_world(), 1250);
   CHECK(find_rooms(wide).rooms.empty());
 }
 

@@ -23,8 +23,7 @@ struct Pane {
 };
 
 Pane pane_of(const World& world, const Opening& window, double rim) {
-  const auto surface = std::find_if(world.surfaces.begin(), world.surfaces.end(),
-                                    [&](const Surface& s) { return s.id == window.surface; });
+  const Surface* surface = find_surface(world, window.surface);
   const Vec3& corner = world.vertices[static_cast<std::size_t>(window.loop[0])];
   Pane pane{.plane = surface->plane,
             .frame = upright_frame(surface->plane, world.frame.up, corner),

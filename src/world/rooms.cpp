@@ -180,10 +180,11 @@ class StoreyRooms {
   }
 
   Vec2 front_of(const Opening& opening) const {
-    for (std::size_t s = 0; s < world_.surfaces.size(); ++s)
-      if (world_.surfaces[s].id == opening.surface)
-        return upright_.normals[s].head<2>().normalized();
-    return Vec2::UnitX();  // no valid world
+    const Surface* s = find_surface(world_, opening.surface);
+    if (!s) return Vec2::UnitX();  // no valid world
+    return upright_.normals[static_cast<std::size_t>(s - world_.surfaces.data())]
+        .head<2>()
+        .normalized();
   }
 
   // Triangles of surfaces of a kind, whose middle is between two heights.

@@ -139,9 +139,8 @@ class Validator {
     const std::string name = fmt::format("opening {}", o.id);
     if (!(o.width > 0) || !(o.height > 0))
       report("{}: the size {} x {} is not positive", name, o.width, o.height);
-    const auto surface = std::find_if(world_.surfaces.begin(), world_.surfaces.end(),
-                                      [&](const Surface& s) { return s.id == o.surface; });
-    if (surface == world_.surfaces.end()) return check_surface_id(name, o.surface);
+    const Surface* surface = find_surface(world_, o.surface);
+    if (!surface) return check_surface_id(name, o.surface);
     check_loop(name, "the loop", o.loop, surface->plane);
   }
 

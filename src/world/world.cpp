@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world.h"
 
+#include <algorithm>
+
 namespace scanworld {
 
 namespace {
@@ -48,6 +50,12 @@ std::size_t triangle_count(const World& world) {
     for (const Loop& hole : s.holes) count += hole.size() + 2;
   }
   return count;
+}
+
+const Surface* find_surface(const World& world, int id) {
+  const auto found = std::find_if(world.surfaces.begin(), world.surfaces.end(),
+                                  [&](const Surface& s) { return s.id == id; });
+  return found == world.surfaces.end() ? nullptr : &*found;
 }
 
 double area(const World& world, const Surface& surface) {

@@ -161,6 +161,9 @@ const char* name_of(OpeningKind kind);
 // Of any triangulation without further vertices.
 std::size_t triangle_count(const World& world);
 
+// The surface with an id; null where there is none.
+const Surface* find_surface(const World& world, int id);
+
 // The area of a surface [m2], and the middle of it.
 double area(const World& world, const Surface& surface);
 Vec3 centroid(const World& world, const Surface& surface);

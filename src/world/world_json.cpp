@@ -158,9 +158,7 @@ std::string world_text(const World& world) {
 }
 
 void write_world(const std::filesystem::path& path, const World& world) {
-  OutputFile file(path);
-  file.write(world_text(world));
-  file.commit();
+  write_text(path, world_text(world));
 }
 
 std::string world_hash(const World& world) {

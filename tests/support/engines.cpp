@@ -5,6 +5,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "exporters/assimp.h"
+#include "exporters/export.h"
 #include "world/solids.h"
 
 namespace scanworld::test {
@@ -45,6 +47,17 @@ std::vector<std::string> ask(const Engine& engine, const std::filesystem::path& 
 std::vector<double> numbers_in(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<double>(in), {}};
+}
+
+Mesh reread(const World& world, const std::string& format) {
+  const TempFolder folder;
+  export_world(world, folder / ("world." + format));
+  Mesh mesh = read_mesh(folder / ("world." + format));
+  for (Vec3& v : mesh.vertices) {
+    if (format == "glb") v = Vec3(v.x(), -v.z(), v.y());  // from Y up
+    if (format == "3mf") v /= 1000;                       // from millimetres
+  }
+  return mesh;
 }
 
 std::vector<Vec3> corners_of(const ExportBody& body) {

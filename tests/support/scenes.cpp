@@ -91,4 +91,10 @@ World full_world() {
   return world;
 }
 
+World scaled(World world, double factor) {
+  for (Vec3& v : world.vertices) v *= factor;
+  for (Surface& s : world.surfaces) s.plane.offset *= factor;
+  return world;
+}
+
 }  // namespace scanworld::test

@@ -27,4 +27,7 @@ World small_world();
 // A world with something of everything that world.json can hold.
 World full_world();
 
+// The same place so many times as large: its vertices and planes.
+World scaled(World world, double factor);
+
 }  // namespace scanworld::test
