@@ -61,3 +61,39 @@ TEST_CASE("a place that is tilted, or in a camera's frame, is classified by its 
   CHECK(world.surfaces[0].kind == Kind::floor);
   CHECK(world.surfaces[1].kind == Kind::wall);
 }
+
+TEST_CASE(
+    "a surface that looks away from all its neighbours is turned over, one among others is not") {
+  // A box seen from outside.
+  const std::array<Vec3, 8> v = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
+                                 Vec3(0, 0, 2), Vec3(1, 0, 2), Vec3(1, 1, 2), Vec3(0, 1, 2)};
+  const std::array<std::array<std::size_t, 4>, 6> faces = {
+      {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  std::vector<FoundSurface> box;
+  for (const auto& f : faces) {
+    FoundSurface s{.outer = {v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, .support = {.points = 1000}};
+    s.plane = plane_through(s.outer[0],
+                            (s.outer[1] - s.outer[0]).cross(s.outer[2] - s.outer[1]).normalized());
+    box.push_back(s);
+  }
+  const World expected = assemble_world(box, {});
+  for (std::size_t k = 0; k < box.size(); ++k)
+    CHECK(expected.surfaces[k].plane.normal == box[k].plane.normal);
+  for (std::size_t k = 0; k < box.size(); ++k) {
+    std::vector<FoundSurface> wrong = box;
+    wrong[k].plane = wrong[k].plane.flipped();
+    wrong[k].support.points = 10;
+    std::reverse(wrong[k].outer.begin(), wrong[k].outer.end());
+    const World world = assemble_world(wrong, {});
+    CHECK(validate(world).empty());
+    for (std::size_t i = 0; i < box.size(); ++i)
+      CHECK(world.surfaces[i].plane.normal == box[i].plane.normal);
+  }
+  // A lone surface, and one that shares too little of its outline, stay as they are.
+  FoundSurface fin{.plane = {Vec3::UnitX(), -1},
+                   .outer = {v[1], Vec3(1, -9, 0), Vec3(1, -9, 2), v[5]}};
+  std::reverse(fin.outer.begin(), fin.outer.end());
+  fin.plane = fin.plane.flipped();
+  for (const auto& with : {std::vector{fin}, std::vector{box[3], fin}})
+    CHECK(assemble_world(with, {}).surfaces.back().plane.normal == fin.plane.normal);
+}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace scanworld {
 
@@ -64,7 +65,57 @@ Box3 box_of(const World& world, const Surface& surface) {
   return box;
 }
 
+// The least share of a surface's outline where neighbours are against it, for it to be turned.
+constexpr double kMinOpposed = 1.0 / 3;
+
+// Calls visit(a, b) for the edges of a surface, in the direction of its loops.
+template <typename Visit>
+void visit_edges(const Surface& surface, const Visit& visit) {
+  const auto along = [&](const Loop& loop) {
+    for (std::size_t k = 0; k < loop.size(); ++k) visit(loop[k], loop[(k + 1) % loop.size()]);
+  };
+  along(surface.outer);
+  for (const Loop& hole : surface.holes) along(hole);
+}
+
+void turn_over(Surface& surface) {
+  surface.plane = surface.plane.flipped();
+  std::reverse(surface.outer.begin(), surface.outer.end());
+  for (Loop& hole : surface.holes) std::reverse(hole.begin(), hole.end());
+}
+
 }  // namespace
+
+void agree_with_neighbors(World& world) {
+  // The directions in which surfaces go along each edge, by how often.
+  std::map<std::pair<int, int>, int> sides;
+  const auto count = [&](const Surface& s, int by) {
+    visit_edges(s, [&](int a, int b) { sides[{a, b}] += by; });
+  };
+  for (const Surface& s : world.surfaces) count(s, 1);
+  std::vector<std::size_t> order(world.surfaces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return world.surfaces[a].support.points < world.surfaces[b].support.points;
+  });
+  for (const std::size_t i : order) {
+    Surface& s = world.surfaces[i];
+    double agreed = 0, opposed = 0, around = 0;
+    visit_edges(s, [&](int a, int b) {
+      const double length = (world.vertices[static_cast<std::size_t>(b)] -
+                             world.vertices[static_cast<std::size_t>(a)])
+                                .norm();
+      const int same = sides[{a, b}] - 1, other = sides[{b, a}];
+      around += length;
+      if (same + other != 1) return;  // an open edge, or one where three or more meet
+      (other == 1 ? agreed : opposed) += length;
+    });
+    if (agreed > 0 || opposed < kMinOpposed * around) continue;
+    count(s, -1);
+    turn_over(s);
+    count(s, 1);
+  }
+}
 
 World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& frame) {
   World world{.frame = frame};
@@ -79,6 +130,7 @@ World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& fra
     for (const auto& hole : found.holes) surface.holes.push_back(pool.add(hole));
     world.surfaces.push_back(std::move(surface));
   }
+  agree_with_neighbors(world);
   classify(world);
   return world;
 }

@@ -9,9 +9,16 @@
 namespace scanworld {
 
 // Makes a world of surfaces, in their order: surface i gets the id i. Vertices are rounded to the
-// micrometre, and those that are then the same are shared. The kinds are those that classify()
-// gives.
+// micrometre, and those that are then the same are shared. The sides are those that
+// agree_with_neighbors() leaves, the kinds those that classify() gives.
 World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& frame);
+
+// Turns over surfaces that look away from all their neighbours: two that look to the same free
+// space go along the edge that they share in opposite directions, so one that does so with none,
+// and not so along a third of its outline or more, looks the wrong way, as a door's narrow jamb may
+// that few points tell of. Those with the fewest points go first; what is turned counts for the
+// next.
+void agree_with_neighbors(World& world);
 
 struct ClassifyOptions {
   double max_tilt =
