@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <exception>
+#include <new>
 
 #include "error.h"
 #include "files.h"
 #include "scan/ply.h"
+#include "version.h"
 
 namespace scanworld::cli {
 
@@ -24,7 +27,32 @@ void ask_to_stop(int signal) {
   std::signal(signal, SIG_DFL);  // the second time it ends at once
 }
 
+// The program's name, in front of what it says.
+std::string program = "scanworld";
+
+int fail(int code, const std::string& message) {
+  fmt::print(stderr, "{}: error: {}\n", program, message);
+  return code;
+}
+
 }  // namespace
+
+int run_app(CLI::App& app, int argc, char** argv) try {
+  program = app.get_name();
+  app.set_version_flag("--version", std::string("scanworld ") + version());
+  app.failure_message(CLI::FailureMessage::simple);
+  app.parse(argc, argv);
+  return 0;
+} catch (const CLI::ParseError& e) {
+  if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+  return fail(static_cast<int>(Cause::usage), std::string(e.what()) + " (see --help)");
+} catch (const Error& e) {
+  return fail(static_cast<int>(e.cause), e.what());
+} catch (const std::bad_alloc&) {
+  return fail(static_cast<int>(Cause::failure), "out of memory");
+} catch (const std::exception& e) {
+  return fail(static_cast<int>(Cause::failure), e.what());
+}
 
 void Console::add_to(CLI::App& verb) {
   verb.add_flag("-q,--quiet", quiet, "No warnings, no progress");
@@ -36,11 +64,11 @@ void Console::add_to(CLI::App& verb) {
 }
 
 void Console::warn(const std::string& text) const {
-  if (!quiet) fmt::print(stderr, "scanworld: warning: {}\n", text);
+  if (!quiet) fmt::print(stderr, "{}: warning: {}\n", program, text);
 }
 
 void Console::note(const std::string& text) const {
-  if (verbose && !quiet) fmt::print(stderr, "scanworld: {}\n", text);
+  if (verbose && !quiet) fmt::print(stderr, "{}: {}\n", program, text);
 }
 
 bool Console::draws_bar() const {

@@ -22,6 +22,10 @@ void add_export(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_check(CLI::App& app);
 
+// Parses a command line, runs what it asks for, and tells errors; returns the exit code. Adds
+// --version.
+int run_app(CLI::App& app, int argc, char** argv);
+
 // What goes to stderr: the log, by how much of it is wanted, and the progress.
 struct Console {
   bool quiet = false, verbose = false;

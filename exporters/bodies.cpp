@@ -94,6 +94,18 @@ std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& o
   return bodies;
 }
 
+Mesh mesh_of(const ExportBody& body) {
+  Mesh mesh;
+  if (const auto* box = std::get_if<BoxShape>(&body.shape))
+    mesh = mesh_of(OrientedBox{.size = box->size});
+  else if (const auto* cylinder = std::get_if<CylinderShape>(&body.shape))
+    mesh = mesh_of(Cylinder{.radius = cylinder->radius, .height = cylinder->height}, Vec3::UnitZ());
+  else
+    mesh = std::get<ConvexShape>(body.shape).mesh;
+  for (Vec3& v : mesh.vertices) v = body.position + body.rotation * v;
+  return mesh;
+}
+
 std::string text_of(double number) {
   const std::string text = fmt::format("{:.9g}", number);
   return text == "-0" ? "0" : text;

@@ -36,6 +36,9 @@ struct ExportBody {
 // `min_thickness` grow away from the free side of their surface.
 std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& options);
 
+// A body as triangles, in the world's axes; a cylinder has facets.
+Mesh mesh_of(const ExportBody& body);
+
 // Numbers in text formats: 9 digits, no minus before zero.
 std::string text_of(double number);
 std::string text_of(const Vec3& v);                  // "x y z"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The house keeps its rule of one direction: who may include whom, and which library is seen where.
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <set>
@@ -38,20 +39,33 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"world", {"ground"}},
     {"reconstruct", {"ground", "scan", "thesis", "rival", "surface", "world"}},
     {"exporters", {"ground", "world"}},
-    {"apps", {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
+    {"sim_check", {"ground", "world", "exporters"}},
+    {"apps",
+     {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters",
+      "sim_check"}},
     {"bench",
      {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
 };
 
-// The start of a library's header names, and the one file that may include them.
-const std::vector<std::pair<std::string, std::string>> kLibraries = {
-    {"tbb/", "src/parallel.cpp"},        {"oneapi/", "src/parallel.cpp"},
-    {"assimp/", "exporters/assimp.cpp"}, {"tiny_gltf.h", "exporters/gltf.cpp"},
-    {"embree3/", "src/mesh_rays.cpp"},   {"boost/", "src/surface/choose_cells.cpp"},
-    {"geos", "src/world/geos.cpp"},      {"libqhull", "src/world/solids.cpp"},
-    {"zlib.h", "src/scan/file.cpp"},     {"liblzf/", "src/scan/pcd.cpp"},
-    {"toml", "apps/settings.cpp"},       {"tinyxml2.h", "exporters/xml.cpp"},
-    {"bt", "exporters/bullet.cpp"},      {"BulletCollision/", "exporters/bullet.cpp"},
+// The start of a library's header names, and the file that may include them; Bullet is written in
+// one room and simulated in another.
+const std::vector<std::pair<std::string, std::vector<std::string>>> kLibraries = {
+    {"tbb/", {"src/parallel.cpp"}},
+    {"oneapi/", {"src/parallel.cpp"}},
+    {"assimp/", {"exporters/assimp.cpp"}},
+    {"tiny_gltf.h", {"exporters/gltf.cpp"}},
+    {"embree3/", {"src/mesh_rays.cpp"}},
+    {"boost/", {"src/surface/choose_cells.cpp"}},
+    {"geos", {"src/world/geos.cpp"}},
+    {"libqhull", {"src/world/solids.cpp"}},
+    {"zlib.h", {"src/scan/file.cpp"}},
+    {"liblzf/", {"src/scan/pcd.cpp"}},
+    {"toml", {"apps/settings.cpp"}},
+    {"tinyxml2.h", {"exporters/xml.cpp"}},
+    {"bt", {"exporters/bullet_shapes.h", "sim_check/bullet_file.cpp"}},
+    {"BulletCollision/", {"exporters/bullet_shapes.cpp", "sim_check/bullet.cpp"}},
+    {"LinearMath/", {"sim_check/bullet.cpp"}},
+    {"BulletWorldImporter/", {"sim_check/bullet_file.cpp"}},
 };
 
 struct Include {
@@ -72,7 +86,7 @@ std::optional<Include> include_of(const fs::path& from, int line, const std::str
 
 std::vector<Include> all_includes() {
   std::vector<Include> includes;
-  for (const char* folder : {"src", "exporters", "apps", "bench"})
+  for (const char* folder : {"src", "exporters", "sim_check", "apps", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(in_project(folder))) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
       std::ifstream file(entry.path());
@@ -117,7 +131,7 @@ TEST_CASE(
     for (const auto& [library, allowed] : kLibraries)
       if (!include.quoted && include.name.starts_with(library)) {
         INFO(from << ":" << include.line << " includes " << include.name);
-        CHECK(from == allowed);
+        CHECK(std::ranges::count(allowed, from) == 1);
       }
   }
 }

@@ -7,7 +7,6 @@
 
 #include "exporters/assimp.h"
 #include "exporters/export.h"
-#include "world/solids.h"
 
 namespace scanworld::test {
 
@@ -58,21 +57,6 @@ Mesh reread(const World& world, const std::string& format) {
     if (format == "3mf") v /= 1000;                       // from millimetres
   }
   return mesh;
-}
-
-std::vector<Vec3> corners_of(const ExportBody& body) {
-  std::vector<Vec3> corners;
-  if (const auto* box = std::get_if<BoxShape>(&body.shape))
-    corners = mesh_of(OrientedBox{.size = box->size}).vertices;
-  else if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
-    corners = convex->mesh.vertices;
-  else
-    corners = mesh_of(Cylinder{.radius = std::get<CylinderShape>(body.shape).radius,
-                               .height = std::get<CylinderShape>(body.shape).height},
-                      Vec3::UnitZ())
-                  .vertices;
-  for (Vec3& c : corners) c = body.position + body.rotation * c;
-  return corners;
 }
 
 }  // namespace scanworld::test

@@ -38,7 +38,4 @@ std::vector<double> numbers_in(const std::string& line);
 // A world as assimp finds it in a file of triangles, in the world's own axes and metres.
 Mesh reread(const World& world, const std::string& format);
 
-// The corners of a body, in the world's axes.
-std::vector<Vec3> corners_of(const ExportBody& body);
-
 }  // namespace scanworld::test

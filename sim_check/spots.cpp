@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "spots.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <set>
+
+#include "error.h"
+#include "mesh_rays.h"
+#include "random.h"
+
+namespace scanworld::sim {
+
+namespace {
+
+constexpr double kLevel = 0.95;       // of a normal's height, from where it counts as upright
+constexpr double kLevelBin = 0.1;     // [m]
+constexpr double kFloorShare = 0.25;  // of the level with most area that a floor has at least
+
+// Only worlds are known to turn their triangles' fronts to where one can be.
+bool is_oriented(const Place& place) { return place.sort == Sort::world || place.world; }
+
+// Twice as long as the area.
+Vec3 normal_of(const Mesh& mesh, std::size_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  const Vec3& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+}
+
+// Triangles of a mesh, chosen by area.
+class Sampler {
+ public:
+  // Of those whose normals are at least so high; of either side where they are not oriented.
+  Sampler(const Mesh& mesh, double min_height, bool oriented) : mesh_(mesh) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Vec3 n = normal_of(mesh, i);
+      const double height = oriented ? n.z() : std::abs(n.z());
+      if (n.norm() > 0 && height >= min_height * n.norm()) {
+        sum += n.norm() / 2;
+        area_.push_back(sum), triangle_.push_back(i);
+      }
+    }
+  }
+  bool empty() const { return area_.empty(); }
+  // A point, and the normal there.
+  std::pair<Vec3, Vec3> draw(Random& random) const {
+    const double at = random.unit() * area_.back();
+    const auto found = std::ranges::upper_bound(area_, at) - area_.begin();
+    const std::size_t i =
+        triangle_[std::min<std::size_t>(static_cast<std::size_t>(found), triangle_.size() - 1)];
+    double u = random.unit(), v = random.unit();
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const auto& t = mesh_.triangles[i];
+    const Vec3 &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+    return {a + u * (b - a) + v * (c - a), normal_of(mesh_, i).normalized()};
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<double> area_;  // summed up
+  std::vector<std::size_t> triangle_;
+};
+
+// The height that floor begins at, in bins: a ceiling has as much area, and is higher.
+double main_level(const Sampler& sampler, std::uint64_t seed) {
+  Random random(seed);
+  std::map<int, int> bins;
+  for (int i = 0; i < 4000; ++i)
+    ++bins[static_cast<int>(std::floor(sampler.draw(random).first.z() / kLevelBin))];
+  int most = 0;
+  for (const auto& [bin, count] : bins) most = std::max(most, count);
+  for (const auto& [bin, count] : bins)
+    if (count >= kFloorShare * most) return (bin + 0.5) * kLevelBin;
+  return 0;
+}
+
+// The places' surfaces, to ask where there is room.
+class Rooms {
+ public:
+  Rooms(const std::vector<Place>& places, const SpotOptions& options) : options_(options) {
+    for (const Place& place : places) {
+      if (place.seen.triangles.empty()) continue;
+      meshes_.push_back(std::make_unique<MeshRays>(place.seen));
+      oriented_.push_back(is_oriented(place) ? &place.seen : nullptr);
+    }
+  }
+
+  // Whether in all places there is floor at p.
+  bool has_floor(const Vec3& p) const {
+    const double above = 0.15;
+    return std::ranges::all_of(meshes_, [&](const auto& mesh) {
+      const auto hit = mesh->cast(p + Vec3(0, 0, above), -Vec3::UnitZ());
+      return hit && std::abs(hit->distance - above) <= options_.tolerance;
+    });
+  }
+
+  // Whether the whole of a robot stands on it.
+  bool can_stand(const Vec3& p) const {
+    const double half = options_.size / 2;
+    for (const Vec3& corner : {Vec3(-half, -half, 0), Vec3(half, -half, 0), Vec3(-half, half, 0),
+                               Vec3(half, half, 0), Vec3(0, 0, 0)})
+      if (!has_floor(p + corner)) return false;
+    return true;
+  }
+
+  // Whether p, a point of the floor, is in none of the solids that stand on it.
+  bool is_outside(const Vec3& p) const {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      if (!oriented_[i]) continue;
+      const auto hit = meshes_[i]->cast(p + Vec3(0, 0, 0.02), Vec3::UnitZ());
+      if (hit && normal_of(*oriented_[i], hit->triangle).z() > 0) return false;
+    }
+    return true;
+  }
+
+  // Whether a robot has room at p, a point of the floor, in all places.
+  bool is_clear(const Vec3& p) const {
+    return std::ranges::all_of(meshes_, [&](const auto& mesh) {
+      if (!mesh->is_free(p + Vec3(0, 0, options_.tolerance + 0.01), Vec3::UnitZ(), 0.5))
+        return false;
+      const int directions = 16;
+      for (double height : {0.05, 0.12, 0.25})
+        for (int i = 0; i < directions; ++i) {
+          const double a = 2 * M_PI * i / directions;
+          if (!mesh->is_free(p + Vec3(0, 0, height), {std::cos(a), std::sin(a), 0},
+                             options_.clearance))
+            return false;
+        }
+      return true;
+    });
+  }
+
+ private:
+  SpotOptions options_;
+  std::vector<std::unique_ptr<MeshRays>> meshes_;
+  std::vector<const Mesh*> oriented_;
+};
+
+// Keeps points some distance apart, seen from above.
+class Apart {
+ public:
+  explicit Apart(double distance) : distance_(distance) {}
+  bool add(const Vec3& p) {
+    const int x = static_cast<int>(std::floor(p.x() / distance_)),
+              y = static_cast<int>(std::floor(p.y() / distance_));
+    for (int i = x - 1; i <= x + 1; ++i)
+      for (int j = y - 1; j <= y + 1; ++j)
+        if (const auto found = cells_.find({i, j}); found != cells_.end())
+          for (const Vec3& q : found->second)
+            if ((q - p).head<2>().norm() < distance_) return false;
+    cells_[{x, y}].push_back(p);
+    return true;
+  }
+
+ private:
+  double distance_;
+  std::map<std::pair<int, int>, std::vector<Vec3>> cells_;
+};
+
+}  // namespace
+
+const Place& reference_of(const std::vector<Place>& places) {
+  const auto world = std::ranges::find(places, Sort::world, &Place::sort);
+  return world == places.end() ? places.front() : *world;
+}
+
+Spots find_spots(const std::vector<Place>& places, const SpotOptions& options) {
+  const Place& reference = reference_of(places);
+  const Sampler level(reference.seen, kLevel, is_oriented(reference));
+  if (level.empty())
+    throw Error(Cause::nothing_found,
+                reference.name + ": nothing level that robots could stand on");
+  const Rooms rooms(places, options);
+  Spots spots{.height = main_level(level, options.seed)};
+  Apart apart(1.5 * options.size);
+  Random random(options.seed);
+  const std::size_t most = 2000 + 200 * options.count;
+  std::vector<double> heights;
+  while (spots.floor.size() < options.count && spots.tried++ < most) {
+    const Vec3 p = level.draw(random).first;
+    if (std::abs(p.z() - spots.height) > 0.2 || !rooms.can_stand(p) || !rooms.is_outside(p) ||
+        !rooms.is_clear(p) || !apart.add(p))
+      continue;
+    spots.floor.push_back(p);
+    heights.push_back(p.z());
+  }
+  if (spots.floor.empty())
+    throw Error(Cause::nothing_found,
+                fmt::format("{}: no place for a robot of {} m on the floor at height {:.2f} m",
+                            reference.name, options.size, spots.height));
+  std::ranges::nth_element(heights,
+                           heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2));
+  spots.height = heights[heights.size() / 2];
+  return spots;
+}
+
+std::vector<Lane> find_lanes(const std::vector<Place>& places, const Spots& spots, double length,
+                             std::size_t count, const SpotOptions& options) {
+  const Rooms rooms(places, options);
+  Random random(options.seed + 1);
+  std::vector<Lane> lanes;
+  for (const Vec3& from : spots.floor) {
+    for (int attempt = 0; attempt < 8 && lanes.size() < count; ++attempt) {
+      const Vec3 along = random.level_direction();
+      bool clear = true;
+      for (double at = 0; clear && at <= length; at += 0.05)
+        clear = rooms.has_floor(from + at * along) && rooms.is_clear(from + at * along);
+      if (!clear) continue;
+      lanes.push_back({from, from + length * along});
+      break;
+    }
+  }
+  return lanes;
+}
+
+std::vector<Vec3> find_probes(const std::vector<Place>& places, std::size_t count, double off,
+                              std::uint64_t seed) {
+  const Place& reference = reference_of(places);
+  const Sampler anywhere(reference.seen, 0, false);
+  Random random(seed + 2);
+  std::vector<Vec3> probes;
+  while (probes.size() < count) {
+    const auto [p, normal] = anywhere.draw(random);
+    probes.push_back(p + off * normal);
+  }
+  return probes;
+}
+
+}  // namespace scanworld::sim
