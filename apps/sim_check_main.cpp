@@ -11,5 +11,8 @@ int main(int argc, char** argv) {
       "whether robots can trust it.",
       "sim_check");
   cli::add_compare(app);
+  cli::add_baseline(app);
+  cli::add_tessellate(app);
+  cli::add_table5(app);
   return cli::run_app(app, argc, argv);
 }

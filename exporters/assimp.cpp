@@ -7,6 +7,7 @@
 
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -129,11 +130,31 @@ void write_3mf(const std::filesystem::path& path, const World& world,
   write_text(path, zip);
 }
 
+namespace {
+
+constexpr unsigned kProcess = aiProcess_Triangulate | aiProcess_PreTransformVertices;
+
+// assimp takes a line feed at the start of binary data for one of the header (its issue 5341), so
+// it gets another one.
+const aiScene* read_ply(Assimp::Importer& importer, const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string end = "end_header\n";
+  const std::size_t at = bytes.find(end);
+  if (at != std::string::npos && bytes.substr(0, at).find("format binary") != std::string::npos &&
+      bytes[at + end.size()] == '\n')
+    bytes.insert(at + end.size(), "\n");
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), kProcess, "ply");
+}
+
+}  // namespace
+
 Mesh read_mesh(const std::filesystem::path& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene =
-      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene = lower_extension(path) == ".ply"
+                             ? read_ply(importer, path)
+                             : importer.ReadFile(path.string(), kProcess);
   if (!scene) throw Error(Cause::bad_input, path.string() + ": " + importer.GetErrorString());
   Mesh mesh;
   std::map<std::array<ai_real, 3>, int> index_of;
@@ -144,6 +165,10 @@ Mesh read_mesh(const std::filesystem::path& path) {
       std::array<int, 3> triangle{};
       for (unsigned k = 0; k < 3; ++k) {
         const aiVector3D& v = part.mVertices[part.mFaces[f].mIndices[k]];
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+          throw Error(Cause::bad_input, path.string() + ": a vertex of triangle " +
+                                            std::to_string(mesh.triangles.size() + 1) +
+                                            " is not finite");
         const auto [found, is_new] =
             index_of.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh.vertices.size()));
         if (is_new) mesh.vertices.emplace_back(v.x, v.y, v.z);

@@ -49,4 +49,21 @@ void write_ply_mesh(const std::filesystem::path& path, const World& world,
   file.commit();
 }
 
+void write_ply_mesh(const std::filesystem::path& path, const Mesh& mesh) {
+  OutputFile file(path);
+  file.write(fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment scanworld, metres\nelement vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\nelement face {}\n"
+      "property list uchar int vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size()));
+  file.write_values(mesh.vertices);
+  std::string faces;
+  for (const auto& t : mesh.triangles) {
+    faces += '\3';
+    faces.append(reinterpret_cast<const char*>(t.data()), sizeof(t));
+  }
+  file.write(faces);
+  file.commit();
+}
+
 }  // namespace scanworld

@@ -14,4 +14,7 @@ namespace scanworld {
 void write_ply_mesh(const std::filesystem::path& path, const World& world,
                     const ExportOptions& options);
 
+// A mesh alone, binary, its coordinates in double.
+void write_ply_mesh(const std::filesystem::path& path, const Mesh& mesh);
+
 }  // namespace scanworld

@@ -4,15 +4,13 @@
 
 #include <BulletWorldImporter/btBulletWorldImporter.h>
 #include <btBulletDynamicsCommon.h>
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <fstream>
-#include <functional>
 
+#include "child.h"
 #include "error.h"
+#include "timing.h"
 #include "world/solids.h"
 
 namespace scanworld::sim {
@@ -141,24 +139,6 @@ BulletFile load(const std::filesystem::path& path) {
   return file;
 }
 
-// Whether work comes to its end in a process of its own, which nothing is heard of.
-bool comes_to_end(const std::function<void()>& work) {
-  const pid_t child = fork();
-  if (child < 0) throw Error(Cause::failure, "cannot start another process");
-  if (child == 0) {
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
-    try {
-      work();
-    } catch (const std::exception&) {  // told by the parent, who meets it as well
-    }
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 // Whether the file begins like one of Bullet's and its chunks fill it up to the types at its end.
 bool is_whole(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -180,7 +160,10 @@ bool is_whole(const std::filesystem::path& path) {
 BulletFile read_bullet(const std::filesystem::path& path) {
   if (!is_whole(path)) refuse(path, "not a .bullet file, or not all of one");
   if (!comes_to_end([&] { load(path); })) refuse(path, "damaged; Bullet's reader fails on it");
-  return load(path);
+  const Stopwatch watch;
+  BulletFile file = load(path);
+  file.seconds = watch.wall();
+  return file;
 }
 
 }  // namespace scanworld::sim

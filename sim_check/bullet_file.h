@@ -13,6 +13,7 @@ namespace scanworld::sim {
 struct BulletFile {
   std::vector<ExportBody> solids;  // none where a body is a triangle mesh
   Mesh seen;  // the mesh named "rays" (exporters/bullet.h), else the triangles of all bodies
+  double seconds = 0;  // that reading took
 };
 
 // Reads a .bullet file of either precision. Boxes, cylinders, hulls, triangle meshes and compounds

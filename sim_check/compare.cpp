@@ -123,7 +123,7 @@ Comparison compare(std::vector<Place> places, const PointCloud* scan, const Comp
                .size = options.size,
                .clearance = 1.5 * options.size,
                .seed = options.seed});
-  result.spots = spots.floor.size();
+  result.spots = spots.floor.size(), result.shared = spots.shared;
   std::vector<Robustness> trust(places.size());
   const double middle = !options.with_robustness ? 0 : options.with_speed ? 0.5 : 1;
   if (options.with_robustness)

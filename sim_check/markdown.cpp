@@ -179,6 +179,10 @@ std::string markdown_of(const Comparison& c) {
         std::min(c.spots, o.robustness.robots), o.robustness.push, o.robustness.seconds);
     text += robustness_table(c);
   }
+  if (c.shared < c.spots)
+    text += fmt::format(
+        "{} of {} robots began where a mesh has no level floor, or something in the way.\n\n",
+        c.spots - c.shared, c.spots);
   for (const Row& row : c.rows) {
     if (row.promises.empty()) continue;
     text += row.name + "\n\n";

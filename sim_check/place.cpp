@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bullet_file.h"
+#include "child.h"
 #include "error.h"
 #include "exporters/assimp.h"
 #include "exporters/export.h"
@@ -47,6 +48,9 @@ void check_size(const std::string& name, const Mesh& mesh) {
 }
 
 Place read_mesh_place(const std::filesystem::path& path, const PlaceOptions& options) {
+  if (!comes_to_end([&] { read_mesh(path); }))
+    throw Error(Cause::bad_input, path.string() + ": damaged; assimp's reader fails on it");
+  const Stopwatch watch;
   Mesh mesh = read_mesh(path);
   const std::string extension = lower_extension(path);
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
@@ -55,20 +59,26 @@ Place read_mesh_place(const std::filesystem::path& path, const PlaceOptions& opt
   for (Vec3& v : mesh.vertices) v = unit * (y_up ? Vec3(v.x(), -v.z(), v.y()) : v);
   check_mesh(path.string(), mesh);
   if (options.unit == 0 && !is_gltf) check_size(path.string(), mesh);
-  return place_of(path.string(), std::move(mesh));
+  Place place = place_of(path.string(), std::move(mesh));
+  place.load_seconds = watch.wall();
+  return place;
 }
 
 Place read_world_place(const std::filesystem::path& path, const PlaceOptions& options) {
+  const Stopwatch watch;
   const World world = read_world(path);
   if (const auto reasons = validate(world); !reasons.empty())
     throw Error(Cause::bad_input, path.string() + ": not a valid world: " + reasons[0]);
   if (world.surfaces.empty()) throw Error(Cause::bad_input, path.string() + ": no surface in it");
-  return place_of(path.string(), world, options);
+  Place place = place_of(path.string(), world, options);
+  place.load_seconds = watch.wall();
+  return place;
 }
 
 Place read_bullet_place(const std::filesystem::path& path, const PlaceOptions& options) {
   BulletFile file = read_bullet(path);
   Place place{.name = path.string(), .sort = Sort::world, .seen = std::move(file.seen)};
+  place.load_seconds = file.seconds;
   check_mesh(place.name, place.seen);
   if (options.as_mesh || file.solids.empty())
     place.sort = Sort::mesh;
@@ -105,13 +115,10 @@ Place read_place(const std::filesystem::path& path, const PlaceOptions& options)
   const std::string extension = lower_extension(path);
   if (!std::filesystem::exists(path, ignored))
     throw Error(Cause::bad_input, path.string() + ": no such file or folder");
-  const Stopwatch watch;
-  Place place = extension == ".bullet" ? read_bullet_place(path, options)
-                : extension == ".json" || std::filesystem::is_directory(path, ignored)
-                    ? read_world_place(path, options)
-                    : read_mesh_place(path, options);
-  place.load_seconds = watch.wall();
-  return place;
+  if (extension == ".bullet") return read_bullet_place(path, options);
+  if (extension == ".json" || std::filesystem::is_directory(path, ignored))
+    return read_world_place(path, options);
+  return read_mesh_place(path, options);
 }
 
 Place place_of(std::string name, Mesh mesh) {

@@ -164,6 +164,7 @@ std::string json_of(const Comparison& c) {
               {"rounds", o.speed.rounds},
               {"seed", o.seed},
               {"spots", c.spots},
+              {"shared_spots", c.shared},
               {"load_average", c.load},
               {"noise", c.noise},
               {"rows", rows},

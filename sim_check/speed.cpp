@@ -122,7 +122,16 @@ class Bench {
 
   void time_detection(std::vector<Speed>& speeds) {
     what_ = "collision detection";
-    const Simulations all = simulations(starts(options_.robots.back(), 0), {.size = options_.size});
+    std::vector<Vec3> floor = spots_.floor;
+    floor.resize(std::min(options_.robots.back(), floor.size()));
+    floor = touching(places_, floor, options_.size);
+    const std::vector<Pose> poses = poses_on(floor, options_.size, options_.seed);
+    for (Vec3& spot : floor) spot.z() = spots_.height - 0.001;
+    const std::vector<Pose> on_plane = poses_on(floor, options_.size, options_.seed);
+    Simulations all;
+    for (const Place& place : places_)
+      all.push_back(engine_.make(place, place.sort == Sort::plane ? on_plane : poses,
+                                 {.size = options_.size}, {}));
     std::vector<Task> tasks;
     for (const auto& simulation : all) tasks.push_back({.run = [&] { simulation->collide(); }});
     const std::vector<Timing> timings = time_in_rounds(tasks, rounds_);

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim_check/place.h"
 
+#include <cstring>
+
 #include "exporters/export.h"
+#include "exporters/ply.h"
 #include "support/places.h"
 #include "world/level.h"
 
@@ -99,4 +102,33 @@ TEST_CASE("a unit or an axis that is given is used") {
   const Place place = read_place(path, {.unit = 0.001, .up = 'y'});
   CHECK(box_around(place.seen).max().isApprox(Vec3(9, 0, 8), 1e-9));
   CHECK(read_place(path, {.unit = 1}).seen.triangles.size() == 1);
+}
+
+TEST_CASE("a binary PLY whose data begins like a line is read right") {
+  const TempFolder folder;
+  Mesh mesh = grid_mesh(3, 4);
+  std::memset(&mesh.vertices[0].x(), '\n', 1);  // the first byte of the data
+  write_ply_mesh(folder / "m.ply", mesh);
+  const Mesh read = read_place(folder / "m.ply").seen;
+  CHECK(read.triangles.size() == mesh.triangles.size());
+  CHECK(area_of(read) == doctest::Approx(area_of(mesh)));
+}
+
+TEST_CASE("a mesh that is cut is refused or read, and never a crash") {
+  const TempFolder folder;
+  write_ply_mesh(folder / "m.ply", grid_mesh(20, 4));
+  export_world(world_named("room"), folder / "m.glb");
+  for (const char* name : {"m.ply", "m.glb"}) {
+    const std::string whole = read_file(folder / name);
+    for (int tenth = 0; tenth < 10; ++tenth) {
+      const auto path = write_file(folder / (std::string("cut_") + name),
+                                   whole.substr(0, tenth * whole.size() / 10));
+      try {
+        read_place(path);
+      } catch (const Error& e) {
+        CHECK(e.cause == Cause::bad_input);
+        CHECK(contains(e.what(), "cut_"));
+      }
+    }
+  }
 }

@@ -48,3 +48,33 @@ TEST_CASE("sim_check's exit codes tell what went wrong") {
   CHECK(over.code == 5);
   CHECK(contains(over.err, "contact test"));
 }
+
+TEST_CASE("table5 makes the meshes and worlds of a scan, and holds all against each other") {
+  const TempFolder folder;
+  const auto scan = folder / "room.ply";
+  REQUIRE(run({"scan", in_project(kRoom), "-o", scan, "--points", "20000"}).code == 0);
+  const Outcome outcome =
+      sim_check({"table5", scan, "-o", folder / "out", "--nodes", "300", "--only", "speed",
+                 "--robots", "3", "--robot", "cube", "--rounds", "1", "--steps", "4"});
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  const std::string table = read_file(folder / "out" / "table5.md");
+  CHECK(table == outcome.out);
+  for (const char* row :
+       {"| gg |", "| gsrm |", "| gng |", "| thesis, triangles |", "| thesis, solids |",
+        "| rival, triangles |", "| rival, solids |", "| plane |", "| empty |"})
+    CHECK(contains(table, row));
+  for (const char* file : {"gg.ply", "gsrm.ply", "gng.ply", "thesis/world.json", "rival/world.json",
+                           "sim_check.json", "sim_check.svg"})
+    CHECK(std::filesystem::exists(folder / "out" / file));
+  CHECK(sim::read_place(folder / "out" / "gsrm.ply").seen.triangles.size() > 100);
+}
+
+TEST_CASE("baselines and tessellated worlds are written as PLY, and nothing else") {
+  const TempFolder folder;
+  const Outcome outcome = sim_check(
+      {"tessellate", in_project(kRoom), "-o", folder / "dense.ply", "--triangles", "2000"});
+  CHECK_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(sim::read_place(folder / "dense.ply").seen.triangles.size() >= 2000);
+  CHECK(sim_check({"tessellate", in_project(kRoom), "-o", folder / "dense.stl"}).code == 2);
+  CHECK(sim_check({"baseline", "poisson", in_project(kRoom), "-o", folder / "m.ply"}).code == 2);
+}
