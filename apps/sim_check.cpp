@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "budget.h"
 #include "cli.h"
 #include "error.h"
 #include "fidelity.h"

@@ -23,9 +23,6 @@ struct MeasureRequest {
   sim::CompareOptions resolved() const;
 };
 
-// "5us", "0.1ms" or "1e-5s" in seconds; throws usage for other text.
-double seconds_from(const std::string& text);
-
 // Writes sim_check.json, .csv, .md and .svg.
 void write_comparison(const std::filesystem::path& folder, const sim::Comparison& comparison);
 

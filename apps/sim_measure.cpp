@@ -13,20 +13,6 @@
 
 namespace scanworld::cli {
 
-double seconds_from(const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
-  const double factor = unit == "us"   ? 1e-6
-                        : unit == "ms" ? 1e-3
-                        : unit == "s"  ? 1
-                        : unit == "ns" ? 1e-9
-                                       : 0;
-  if (end == text.c_str() || factor == 0 || !(number > 0))
-    throw Error(Cause::usage, "--budget: '" + text + "' is no time; write 5us or 0.1ms");
-  return number * factor;
-}
-
 void MeasureRequest::add_to(CLI::App& app) {
   app.add_option("--robots", robots, "Numbers of robots")
       ->delimiter(',')

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "budget.h"
 #include "error.h"
 
 namespace scanworld::sim {
@@ -47,6 +48,11 @@ std::vector<Criterion> promises_of(const Row& row, const CompareOptions& options
   if (limits.budget > 0 && row.speed.contact)
     promises.push_back({"contact test, mean", "s", row.speed.contact->cpu.mean, limits.budget});
   return promises;
+}
+
+bool is_over_budget(const Row& row, const PromiseOptions& promises) {
+  return row.sort == Sort::world && promises.budget > 0 && row.speed.contact &&
+         row.speed.contact->cpu.mean > promises.budget;
 }
 
 // Ratios that changed much between rounds, and times on the wall that others took part of.
@@ -136,8 +142,10 @@ Comparison compare(std::vector<Place> places, const PointCloud* scan, const Comp
   if (options.with_speed) speeds = measure_speed(places, spots, engine, speed, part(middle, 1));
 
   for (std::size_t i = 0; i < places.size(); ++i) {
-    Row row{places[i].name, places[i].sort, speeds[i], trust[i], {}};
+    Row row{places[i].name, places[i].sort, speeds[i], trust[i], {}, {}};
     if (row.sort == Sort::world) row.promises = promises_of(row, options);
+    if (is_over_budget(row, options.promises))
+      row.in_the_way = slowest_places(places[i], {.size = options.size, .seed = options.seed});
     result.rows.push_back(std::move(row));
   }
   if (options.with_speed) result.noise = noise_of(result.rows);

@@ -37,8 +37,9 @@ struct Row {
   std::string name;
   Sort sort = Sort::mesh;
   Speed speed;
-  Robustness robustness;            // of `plane` and `empty` nothing
-  std::vector<Criterion> promises;  // of worlds
+  Robustness robustness;                // of `plane` and `empty` nothing
+  std::vector<Criterion> promises;      // of worlds
+  std::vector<std::string> in_the_way;  // of a contact test within the budget, where it is broken
 };
 
 struct Comparison {

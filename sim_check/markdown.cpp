@@ -187,6 +187,7 @@ std::string markdown_of(const Comparison& c) {
     if (row.promises.empty()) continue;
     text += row.name + "\n\n";
     for (const Criterion& p : row.promises) text += promise_line(p);
+    for (const std::string& place : row.in_the_way) text += "  - " + place + "\n";
     text += "\n";
   }
   for (const std::string& noise : c.noise)

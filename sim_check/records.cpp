@@ -155,6 +155,7 @@ std::string json_of(const Comparison& c) {
                                   {"value", *p.value},
                                   {"at_most", p.limit},
                                   {"kept", p.is_met()}});
+    if (!row.in_the_way.empty()) json["in_the_way"] = row.in_the_way;
     rows.push_back(json);
   }
   return Json{{"program", std::string("scanworld ") + version()},
