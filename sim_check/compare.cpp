@@ -55,6 +55,19 @@ bool is_over_budget(const Row& row, const PromiseOptions& promises) {
          row.speed.contact->cpu.mean > promises.budget;
 }
 
+// Leaves out what robots could not touch in this engine, and returns the names.
+std::vector<std::string> leave_out_meshes(std::vector<Place>& places, const EngineMaker& engine) {
+  std::vector<std::string> names;
+  if (engine.takes_meshes) return names;
+  std::erase_if(places, [&](const Place& place) {
+    if (place.sort == Sort::mesh) names.push_back(place.name);
+    return place.sort == Sort::mesh;
+  });
+  if (places.empty())
+    throw Error(Cause::usage, engine.name + " takes no meshes, and there is no world");
+  return names;
+}
+
 // Ratios that changed much between rounds, and times on the wall that others took part of.
 std::vector<std::string> noise_of(const std::vector<Row>& rows) {
   std::size_t all = 0, uneven = 0;
@@ -123,6 +136,7 @@ Comparison compare(std::vector<Place> places, const PointCloud* scan, const Comp
   };
 
   const Frame frame = align(places);
+  result.left_out = leave_out_meshes(places, engine);
   const PointCloud cloud = scan ? brought(*scan, frame) : PointCloud{};
   const Spots spots = find_spots(
       places, {.count = std::max(*std::ranges::max_element(speed.robots), robustness.robots),

@@ -44,11 +44,12 @@ struct Row {
 
 struct Comparison {
   CompareOptions options;
-  std::size_t spots = 0;           // where robots stood
-  std::size_t shared = 0;          // of these, where they stand free in all places
-  std::vector<Row> rows;           // as given; then `plane` and `empty`
-  double load = 0;                 // of the machine, processes that wanted to run, at the end
-  std::vector<std::string> noise;  // what says that the machine was too noisy to judge
+  std::size_t spots = 0;              // where robots stood
+  std::size_t shared = 0;             // of these, where they stand free in all places
+  std::vector<Row> rows;              // as given; then `plane` and `empty`
+  std::vector<std::string> left_out;  // places that the engine does not take
+  double load = 0;                    // of the machine, processes that wanted to run, at the end
+  std::vector<std::string> noise;     // what says that the machine was too noisy to judge
 
   bool keeps_promises() const;
 };

@@ -179,6 +179,8 @@ std::string markdown_of(const Comparison& c) {
         std::min(c.spots, o.robustness.robots), o.robustness.push, o.robustness.seconds);
     text += robustness_table(c);
   }
+  for (const std::string& name : c.left_out)
+    text += fmt::format("{} is left out: {} takes no meshes.\n\n", name, o.engine);
   if (c.shared < c.spots)
     text += fmt::format(
         "{} of {} robots began where a mesh has no level floor, or something in the way.\n\n",

@@ -168,6 +168,7 @@ std::string json_of(const Comparison& c) {
               {"shared_spots", c.shared},
               {"load_average", c.load},
               {"noise", c.noise},
+              {"left_out", c.left_out},
               {"rows", rows},
               {"keeps_promises", c.keeps_promises()},
               {"verdict", verdict_of(c)}}

@@ -4,6 +4,12 @@
 
 #include "bullet.h"
 #include "error.h"
+#ifdef SCANWORLD_MUJOCO
+#include "mujoco.h"
+#endif
+#ifdef SCANWORLD_ODE
+#include "ode.h"
+#endif
 
 namespace scanworld::sim {
 
@@ -14,7 +20,13 @@ const char* name_of(RobotKind kind) {
 
 const std::vector<EngineMaker>& engines() {
   static const std::vector<EngineMaker> all = {
-      {"bullet", make_bullet},
+      {"bullet", make_bullet, true},
+#ifdef SCANWORLD_ODE
+      {"ode", make_ode, true},
+#endif
+#ifdef SCANWORLD_MUJOCO
+      {"mujoco", make_mujoco, false},
+#endif
   };
   return all;
 }

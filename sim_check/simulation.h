@@ -76,6 +76,7 @@ struct EngineMaker {
   std::string name;
   std::unique_ptr<Simulation> (*make)(const Place&, const std::vector<Pose>& robots,
                                       const RobotOptions&, const EngineOptions&);
+  bool takes_meshes;  // else robots can touch solids alone
 };
 
 // Those that this program was built with; Bullet comes first.

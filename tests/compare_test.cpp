@@ -128,3 +128,22 @@ TEST_CASE(
 TEST_CASE("an engine that there is not is refused, naming those there are") {
   CHECK(contains(error_of(Cause::usage, [] { engine_named("havok"); }), "bullet"));
 }
+
+TEST_CASE("other engines compare the same worlds, and what one does not take is told") {
+  CompareOptions options = brief();
+  options.speed.robots = {5};
+  options.speed.kinds = {RobotKind::cube};
+  for (const char* name : {"ode", "mujoco"}) {
+    INFO(name);
+    options.engine = name;
+    const Comparison c = compare(room_both_ways(), nullptr, options);
+    const bool meshes = engine_named(name).takes_meshes;
+    CHECK(c.rows.size() == (meshes ? 4 : 3));
+    CHECK(c.left_out.size() == (meshes ? 0 : 1));
+    CHECK_FALSE(c.rows[0].speed.contact);
+    CHECK(c.rows[meshes].sort == Sort::world);
+    CHECK(c.rows[meshes].speed.steps[0].time.cpu.median > 0);
+    CHECK(contains(markdown_of(c), name));
+    if (meshes) CHECK(c.rows[1].speed.collide.ratio > 2);
+  }
+}

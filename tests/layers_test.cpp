@@ -65,6 +65,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kLibraries =
     {"bt", {"exporters/bullet_shapes.h", "sim_check/bullet_file.cpp"}},
     {"BulletCollision/", {"exporters/bullet_shapes.cpp", "sim_check/bullet.cpp"}},
     {"LinearMath/", {"sim_check/bullet.cpp"}},
+    {"ode/", {"sim_check/ode.cpp"}},
+    {"mujoco/", {"sim_check/mujoco.cpp"}},
     {"BulletWorldImporter/", {"sim_check/bullet_file.cpp"}},
 };
 
