@@ -150,7 +150,6 @@ std::vector<Robustness> measure_robustness(const std::vector<Place>& places, con
                                            const Progress& progress) {
   const std::vector<Lane> lanes = find_lanes(places, spots, options.lane, options.lanes,
                                              {.size = options.size, .seed = options.seed});
-  const auto& truth = reference_of(places).world;
   std::vector<Robustness> all(places.size());
   double done = 0;
   const double turns = static_cast<double>(places.size()) *
@@ -172,6 +171,7 @@ std::vector<Robustness> measure_robustness(const std::vector<Place>& places, con
     found.ball = glide(place, lanes, engine, RobotKind::ball, options);
     tell("going through doors");
     const auto simulation = engine.make(place, {}, {}, {});
+    const auto& truth = place.world ? place.world : reference_of(places).world;
     if (truth && simulation->has_queries()) found.doors = go_through(*truth, *simulation, options);
     found.floor = find_floor_gaps(place, spots, scan, options);
     if (scan && !scan->viewpoints.empty()) found.lidar = compare_lidar(*simulation, *scan, options);

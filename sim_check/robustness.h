@@ -77,8 +77,8 @@ struct Robustness {
   std::optional<LidarError> lidar;  // where there is a scan with scanner positions
 };
 
-// Doors and walls are those of the reference (spots.h) where it is a world; the scan, if any, is in
-// the places' coordinates.
+// Doors and walls are a world's own, and for meshes those of the reference (spots.h) where that is
+// a world; the scan, if any, is in the places' coordinates.
 std::vector<Robustness> measure_robustness(const std::vector<Place>& places, const Spots& spots,
                                            const EngineMaker& engine, const PointCloud* scan,
                                            const RobustnessOptions& options,
