@@ -139,15 +139,16 @@ class Bullet : public Simulation {
   }
 
   void put(std::size_t robot, const Pose& pose, const Vec3& velocity, const Vec3& spin) override {
-    const auto place = [&](btRigidBody& body, const btTransform& at) {
-      body.setWorldTransform(at);
-      body.setInterpolationWorldTransform(at);
-      body.setLinearVelocity(bt(velocity));
+    const btTransform at = bt(pose);
+    const auto place = [&](btRigidBody& body, const btTransform& there) {
+      body.setWorldTransform(there);
+      body.setInterpolationWorldTransform(there);
+      body.setLinearVelocity(bt(velocity) + bt(spin).cross(there.getOrigin() - at.getOrigin()));
       body.setAngularVelocity(bt(spin));
       body.clearForces();
     };
-    place(*robots_[robot], bt(pose));
-    if (!arms_.empty()) place(*arms_[robot], bt(pose) * arm_offset());
+    place(*robots_[robot], at);
+    if (!arms_.empty()) place(*arms_[robot], at * arm_offset());
   }
 
   void push(std::size_t robot, const Vec3& force) override {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "scenes.h"
-#include "sim_check/place.h"
+#include "sim_check/simulation.h"
 #include "world/solids.h"
 #include "world/world_json.h"
 
@@ -38,6 +38,29 @@ inline Mesh grid_mesh(int n, double size) {
       mesh.triangles.push_back({a, d, c});
     }
   return mesh;
+}
+
+// A slab whose top is at height 0, as a box and as a hull with an origin and axes of its own.
+inline ExportBody slab_body() { return box_body({-3, -3, -0.1}, {3, 3, 0}); }
+inline ExportBody slab_hull() {
+  ExportBody hull = slab_body();
+  Mesh mesh = mesh_of(hull);
+  hull.position = {1, 2, 0.5};
+  hull.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()));
+  for (Vec3& v : mesh.vertices) v = hull.rotation.conjugate() * (v - hull.position);
+  hull.shape = ConvexShape{mesh};
+  return hull;
+}
+
+// So many robots in a row along y, which do not touch.
+inline std::vector<sim::Pose> row_of(int count) {
+  std::vector<sim::Pose> poses;
+  for (int i = 0; i < count; ++i) poses.push_back({Vec3(0, 0.25 * i - 1, 0.06)});
+  return poses;
+}
+
+inline void run_for(sim::Simulation& simulation, double seconds) {
+  for (int i = 0; i < 240 * seconds; ++i) simulation.step(1. / 240);
 }
 
 inline World world_named(const std::string& name) {
