@@ -110,6 +110,28 @@ std::string steps_table(const Comparison& c) {
   return table_of(rows);
 }
 
+// What the columns of speed_table() are short of.
+std::string figures_table(const Comparison& c) {
+  std::vector<Cells> rows = {{"figure", "place", "mean", "x", "median", "99 %", "wall"}};
+  const auto add = [&](const char* figure, double unit, auto timing_of) {
+    for (const Row& row : c.rows) {
+      const Timing* timing = timing_of(row.speed);
+      if (!timing) continue;
+      Cells cells = {figure, row.name};
+      add_timing(cells, *timing, unit);
+      for (double seconds : {timing->cpu.median, timing->cpu.p99, timing->wall.mean})
+        cells.push_back(short_text(seconds / unit));
+      rows.push_back(cells);
+    }
+  };
+  const auto maybe = [](const std::optional<Timing>& t) { return t ? &*t : nullptr; };
+  add("detection, ms", 1e-3, [](const Speed& s) { return &s.collide; });
+  add("contact test, us", 1e-6, [&](const Speed& s) { return maybe(s.contact); });
+  add("sweep, us", 1e-6, [&](const Speed& s) { return maybe(s.sweep); });
+  add("lidar, ms", 1e-3, [](const Speed& s) { return &s.lidar; });
+  return table_of(rows);
+}
+
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share + 0.0); }
 
 std::string robustness_table(const Comparison& c) {
@@ -170,7 +192,7 @@ std::string markdown_of(const Comparison& c) {
         "as fast as the first row, the median of {} rounds in which all took turns; ~: the rounds "
         "disagree.\n\n",
         o.size, o.speed.rate, o.engine, o.speed.rounds);
-    text += speed_table(c) + steps_table(c);
+    text += speed_table(c) + steps_table(c) + figures_table(c);
   }
   if (o.with_robustness) {
     text += fmt::format(

@@ -54,6 +54,15 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// The end of a name that is too long for its place.
+std::string shortened(const std::string& name) {
+  constexpr std::size_t kMost = 32;
+  if (name.size() <= kMost) return name;
+  std::size_t from = name.size() - kMost + 3;
+  while (from < name.size() && (name[from] & 0xC0) == 0x80) ++from;  // not amid a character
+  return "..." + name.substr(from);
+}
+
 std::string time_text(double seconds) {
   return seconds >= 1e-3 ? fmt::format("{:.3g} ms", 1e3 * seconds)
                          : fmt::format("{:.3g} µs", 1e6 * seconds);
@@ -98,7 +107,7 @@ std::string svg_of(const Comparison& c) {
     for (std::size_t i = 0; i < group.bars.size(); ++i, y += kBar) {
       const Timing& bar = *group.bars[i];
       const double end = x_of(bar.cpu.median);
-      svg += text_at(kLeft - 6, y + 11, "end", c.rows[i].name);
+      svg += text_at(kLeft - 6, y + 11, "end", shortened(c.rows[i].name));
       svg += fmt::format(
           "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"{}\"/>\n", kLeft,
           y + 1, end - kLeft, kBar - 3, kColors[std::min<std::size_t>(i, std::size(kColors) - 1)]);
