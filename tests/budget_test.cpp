@@ -12,12 +12,12 @@ using namespace scanworld::test;
 
 namespace {
 
-// A room full of small clutter.
+// A room full of small clutter, much of it in one place.
 World cluttered() {
   World world = world_named("room");
   Random random(5);
-  for (int i = 0; i < 300; ++i) {
-    OrientedBox box{.center = {random.uniform(0.5, 3.5), random.uniform(0.5, 3.5), 0.04},
+  for (int i = 0; i < 2000; ++i) {
+    OrientedBox box{.center = {random.uniform(0.5, 2.5), random.uniform(0.5, 2.5), 0.04},
                     .size = {0.08, 0.08, 0.08}};
     world.obstacles.push_back({1000 + i, box});
   }
@@ -48,12 +48,14 @@ TEST_CASE("a world is simplified until it meets its budget") {
   const World world = cluttered();
   const Budget never = meet_budget(world, 1e-9);
   const double all = never.tries.front().seconds, least = never.tries.back().seconds;
-  REQUIRE(least < 0.8 * all);
+  // So much apart that it does not matter whether others take a part of the machine.
+  REQUIRE(least < all / 3);
   const Budget budget = meet_budget(world, std::sqrt(all * least));
   CHECK(budget.is_met);
-  CHECK(budget.world.obstacles.size() < world.obstacles.size());
-  CHECK(budget.tries.back().obstacles == budget.world.obstacles.size());
   CHECK(budget.tries.back().seconds <= budget.limit);
+  CHECK(budget.tries.front().seconds > budget.limit);
+  CHECK(budget.world == simplify(world, budget.tries.back().simplified));
+  CHECK(budget.world.obstacles.size() < world.obstacles.size());
 }
 
 TEST_CASE("build tells whether its world meets the budget, and keeps what it made") {
