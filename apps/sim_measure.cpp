@@ -9,6 +9,7 @@
 #include "error.h"
 #include "files.h"
 #include "sim_check.h"
+#include "sim_check/named.h"
 #include "sim_check/report.h"
 
 namespace scanworld::cli {
@@ -45,10 +46,8 @@ void MeasureRequest::add_to(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--only", only, "speed or robustness alone")
       ->check(CLI::IsMember({"speed", "robustness"}));
-  std::string engines;
-  for (const sim::EngineMaker& engine : sim::engines())
-    engines += (engines.empty() ? "" : ", ") + engine.name;
-  app.add_option("--engine", options.engine, "Physics engine: " + engines)->capture_default_str();
+  app.add_option("--engine", options.engine, "Physics engine: " + sim::names_of(sim::engines()))
+      ->capture_default_str();
 }
 
 sim::CompareOptions MeasureRequest::resolved() const {

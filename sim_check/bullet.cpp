@@ -106,12 +106,9 @@ class Bullet : public Simulation {
          const EngineOptions& options)
       : robot_(robot) {
     world_.setGravity({0, 0, scalar(place.sort == Sort::empty ? 0 : -options.gravity)});
-    world_.getSolverInfo().m_numIterations = 10;
     add_place(place, options);
     make_shapes();
     for (const Pose& pose : robots) add_robot(pose);
-    // They rest on what is there, so let that be found before the first step.
-    world_.updateAabbs();
   }
   ~Bullet() override {
     for (const auto& hinge : hinges_) world_.removeConstraint(hinge.get());
@@ -125,9 +122,8 @@ class Bullet : public Simulation {
   std::size_t contacts() const override {
     std::size_t count = 0;
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
-      count += static_cast<std::size_t>(const_cast<btCollisionDispatcher&>(dispatcher_)
-                                            .getManifoldByIndexInternal(i)
-                                            ->getNumContacts());
+      count +=
+          static_cast<std::size_t>(dispatcher_.getManifoldByIndexInternal(i)->getNumContacts());
     return count;
   }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "random.h"
 #include "robustness.h"
+#include "sampler.h"
 #include "world/triangulate.h"
 
 namespace scanworld::sim {
@@ -55,30 +55,17 @@ bool gets_through(const World& world, const Opening& door, Simulation& simulatio
 void try_walls(const World& world, Simulation& simulation, const RobustnessOptions& options,
                Doors& doors) {
   const WorldMesh triangles = triangulate(world);
-  std::vector<std::size_t> walls;
-  std::vector<double> areas;
-  double sum = 0;
-  for (std::size_t i = 0; i < triangles.surface.size(); ++i) {
-    if (world.surfaces[static_cast<std::size_t>(triangles.surface[i])].kind != Kind::wall) continue;
-    const auto& t = triangles.mesh.triangles[i];
-    const Vec3& a = world.vertices[t[0]];
-    sum += (world.vertices[t[1]] - a).cross(world.vertices[t[2]] - a).norm() / 2;
-    walls.push_back(i), areas.push_back(sum);
-  }
+  const auto surface_of = [&](std::size_t triangle) -> const Surface& {
+    return world.surfaces[static_cast<std::size_t>(triangles.surface[triangle])];
+  };
+  const Sampler walls(triangles.mesh,
+                      [&](std::size_t i) { return surface_of(i).kind == Kind::wall; });
   if (walls.empty()) return;
   Random random(options.seed + 7);
   const Vec3 size = Vec3::Constant(options.size);
   for (std::size_t k = 0; k < options.walls; ++k) {
-    const auto found = std::ranges::upper_bound(areas, random.unit() * sum) - areas.begin();
-    const std::size_t i =
-        walls[std::min<std::size_t>(static_cast<std::size_t>(found), walls.size() - 1)];
-    double u = random.unit(), v = random.unit();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const auto& t = triangles.mesh.triangles[i];
-    const Vec3 &a = world.vertices[t[0]], &b = world.vertices[t[1]], &c = world.vertices[t[2]];
-    const Vec3 p = a + u * (b - a) + v * (c - a);
-    const Vec3& normal =
-        world.surfaces[static_cast<std::size_t>(triangles.surface[i])].plane.normal;
+    const auto [p, triangle] = walls.draw(random);
+    const Vec3& normal = surface_of(triangle).plane.normal;
     ++doors.walls;
     doors.walls_open += simulation.sweep(size, {p + kReach * normal}, p - kReach * normal) >= 1;
   }

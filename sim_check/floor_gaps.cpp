@@ -7,6 +7,7 @@
 
 #include "mesh_rays.h"
 #include "robustness.h"
+#include "world/solids.h"
 
 namespace scanworld::sim {
 
@@ -75,9 +76,7 @@ struct Touched {
   explicit Touched(const Place& place) : mesh(touched_mesh(place)), rays(mesh) {}
 
   bool is_steep(std::size_t triangle) const {
-    const auto& t = mesh.triangles[triangle];
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+    const Vec3 n = vector_area(mesh, triangle);
     return std::abs(n.z()) < kSteep * n.norm();
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "text.h"
 #include "report.h"
 
 namespace scanworld::sim {
@@ -43,17 +44,6 @@ std::vector<Group> groups_of(const Comparison& c) {
   return groups;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text)
-    out += c == '<'   ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '&' ? "&amp;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
-  return out;
-}
-
 // The end of a name that is too long for its place.
 std::string shortened(const std::string& name) {
   constexpr std::size_t kMost = 32;
@@ -70,7 +60,7 @@ std::string time_text(double seconds) {
 
 std::string text_at(double x, double y, const std::string& anchor, const std::string& text) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
-                     escaped(text));
+                     markup_text(text));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <deque>
 
 #include "drive.h"
-#include "mesh_rays.h"
 #include "random.h"
 #include "timing.h"
 
@@ -70,8 +69,9 @@ class Watch {
 
 }  // namespace
 
-Lost drive_at(const Place& place, const Spots& spots, const EngineMaker& engine, double speed,
-              double rate, const RobustnessOptions& options) {
+Lost drive_at(const Place& place, const MeshRays& seen, const Spots& spots,
+              const EngineMaker& engine, double speed, double rate,
+              const RobustnessOptions& options) {
   std::vector<Vec3> floor = spots.floor;
   floor.resize(std::min(options.robots, floor.size()));
   const std::vector<Pose> starts = poses_on(floor, options.size, options.seed, 0.02);
@@ -82,9 +82,8 @@ Lost drive_at(const Place& place, const Spots& spots, const EngineMaker& engine,
                  .acceleration = options.push,
                  .at_full_speed = true,
                  .seed = options.seed + 5});
-  const MeshRays surfaces(place.seen);
   std::vector<Watch> watches;
-  for (const Pose& start : starts) watches.emplace_back(surfaces, start.position);
+  for (const Pose& start : starts) watches.emplace_back(seen, start.position);
   const int steps = static_cast<int>(std::lround(options.seconds * rate));
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i : driver.drive(*simulation, 1 / rate))
@@ -101,13 +100,13 @@ Glide glide(const Place& place, const std::vector<Lane>& lanes, const EngineMake
             RobotKind kind, const RobustnessOptions& options) {
   constexpr double kSpeed = 1, kRate = 240;  // [m/s], [Hz]
   Glide glide;
+  const double half = options.size / 2;
+  const auto simulation =
+      engine.make(place, {Pose{}}, {.kind = kind, .size = options.size, .friction = 0}, {});
   for (const Lane& lane : lanes) {
     const Vec3 along = (lane.to - lane.from).normalized();
-    const double half = options.size / 2;
     const Pose start{lane.from + Vec3(0, 0, half),
                      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), along)};
-    const auto simulation =
-        engine.make(place, {start}, {.kind = kind, .size = options.size, .friction = 0}, {});
     const Vec3 rolling = kSpeed / half * Vec3::UnitZ().cross(along);
     simulation->put(0, start, kSpeed * along, kind == RobotKind::ball ? rolling : Vec3::Zero());
     const int steps = static_cast<int>((lane.to - lane.from).norm() / kSpeed * kRate);
@@ -160,10 +159,11 @@ std::vector<Robustness> measure_robustness(const std::vector<Place>& places, con
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     Robustness& found = all[i];
+    const MeshRays seen(place.seen);
     for (double rate : options.rates)
       for (double speed : options.speeds) {
         tell("driving against walls");
-        found.lost.push_back(drive_at(place, spots, engine, speed, rate, options));
+        found.lost.push_back(drive_at(place, seen, spots, engine, speed, rate, options));
       }
     tell("gliding over the floor");
     found.lanes = lanes.size();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh_rays.h"
 #include "progress.h"
 #include "simulation.h"
 #include "spots.h"
@@ -84,9 +85,10 @@ std::vector<Robustness> measure_robustness(const std::vector<Place>& places, con
                                            const RobustnessOptions& options,
                                            const Progress& progress = {});
 
-// Its parts, each for one place.
-Lost drive_at(const Place& place, const Spots& spots, const EngineMaker& engine, double speed,
-              double rate, const RobustnessOptions& options);
+// Its parts, each for one place; `seen` is what is seen of it, ready for rays.
+Lost drive_at(const Place& place, const MeshRays& seen, const Spots& spots,
+              const EngineMaker& engine, double speed, double rate,
+              const RobustnessOptions& options);
 Glide glide(const Place& place, const std::vector<Lane>& lanes, const EngineMaker& engine,
             RobotKind kind, const RobustnessOptions& options);
 Doors go_through(const World& truth, Simulation& simulation, const RobustnessOptions& options);

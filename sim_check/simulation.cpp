@@ -3,7 +3,7 @@
 #include "simulation.h"
 
 #include "bullet.h"
-#include "error.h"
+#include "named.h"
 #ifdef SCANWORLD_MUJOCO
 #include "mujoco.h"
 #endif
@@ -32,12 +32,7 @@ const std::vector<EngineMaker>& engines() {
 }
 
 const EngineMaker& engine_named(const std::string& name) {
-  std::string known;
-  for (const EngineMaker& engine : engines()) {
-    if (engine.name == name) return engine;
-    known += (known.empty() ? "" : ", ") + engine.name;
-  }
-  throw Error(Cause::usage, "no engine '" + name + "'; there is " + known);
+  return find_named(engines(), name, "engine");
 }
 
 }  // namespace scanworld::sim

@@ -58,16 +58,18 @@ class Bench {
     speed.solids = place.solids.size();
     speed.area = area_of(place.seen);
     speed.load_seconds = place.load_seconds;
-    const auto grown_by = [&](const Place& built) {
+    // [bytes, s of CPU time]
+    const auto cost_of = [&](const Place& built) {
       const double before = heap();
+      const Stopwatch watch;
       const auto simulation = engine_.make(built, {}, {}, {});
-      return heap() - before;
+      const double seconds = watch.cpu();
+      return std::pair(heap() - before, seconds);
     };
+    const auto [memory, seconds] = cost_of(place);
     // What an engine takes for itself is not the place's.
-    speed.memory = grown_by(place) - grown_by({.sort = Sort::empty});
-    const Stopwatch watch;
-    engine_.make(place, {}, {}, {});
-    speed.build_seconds = watch.cpu();
+    speed.memory = memory - cost_of({.sort = Sort::empty}).first;
+    speed.build_seconds = seconds;
   }
 
   std::vector<Pose> starts(std::size_t count, double above) const {

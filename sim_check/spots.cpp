@@ -12,7 +12,9 @@
 #include "error.h"
 #include "mesh_rays.h"
 #include "random.h"
+#include "sampler.h"
 #include "timing.h"
+#include "world/solids.h"
 
 namespace scanworld::sim {
 
@@ -42,54 +44,21 @@ double floor_under(const MeshRays& mesh, const Vec3& spot, double size) {
 // Only worlds are known to turn their triangles' fronts to where one can be.
 bool is_oriented(const Place& place) { return place.sort == Sort::world || place.world; }
 
-// Twice as long as the area.
-Vec3 normal_of(const Mesh& mesh, std::size_t triangle) {
-  const auto& t = mesh.triangles[triangle];
-  const Vec3& a = mesh.vertices[t[0]];
-  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+// Of the triangles that robots could stand on: upright, with their fronts up where that is known.
+Sampler level_sampler(const Place& place) {
+  return {place.seen, [&place](std::size_t i) {
+            const Vec3 normal = vector_area(place.seen, i);
+            const double height = is_oriented(place) ? normal.z() : std::abs(normal.z());
+            return height >= kLevel * normal.norm();
+          }};
 }
-
-// Triangles of a mesh, chosen by area.
-class Sampler {
- public:
-  // Of those whose normals are at least so high; of either side where they are not oriented.
-  Sampler(const Mesh& mesh, double min_height, bool oriented) : mesh_(mesh) {
-    double sum = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const Vec3 n = normal_of(mesh, i);
-      const double height = oriented ? n.z() : std::abs(n.z());
-      if (n.norm() > 0 && height >= min_height * n.norm()) {
-        sum += n.norm() / 2;
-        area_.push_back(sum), triangle_.push_back(i);
-      }
-    }
-  }
-  bool empty() const { return area_.empty(); }
-  // A point, and the normal there.
-  std::pair<Vec3, Vec3> draw(Random& random) const {
-    const double at = random.unit() * area_.back();
-    const auto found = std::ranges::upper_bound(area_, at) - area_.begin();
-    const std::size_t i =
-        triangle_[std::min<std::size_t>(static_cast<std::size_t>(found), triangle_.size() - 1)];
-    double u = random.unit(), v = random.unit();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const auto& t = mesh_.triangles[i];
-    const Vec3 &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
-    return {a + u * (b - a) + v * (c - a), normal_of(mesh_, i).normalized()};
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<double> area_;  // summed up
-  std::vector<std::size_t> triangle_;
-};
 
 // The height that floor begins at, in bins: a ceiling has as much area, and is higher.
 double main_level(const Sampler& sampler, std::uint64_t seed) {
   Random random(seed);
   std::map<int, int> bins;
   for (int i = 0; i < 4000; ++i)
-    ++bins[static_cast<int>(std::floor(sampler.draw(random).first.z() / kLevelBin))];
+    ++bins[static_cast<int>(std::floor(sampler.draw(random).point.z() / kLevelBin))];
   int most = 0;
   for (const auto& [bin, count] : bins) most = std::max(most, count);
   for (const auto& [bin, count] : bins)
@@ -131,7 +100,7 @@ class Rooms {
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       if (!oriented_[i]) continue;
       const auto hit = meshes_[i]->cast(p + Vec3(0, 0, 0.02), Vec3::UnitZ());
-      if (hit && normal_of(*oriented_[i], hit->triangle).z() > 0) return false;
+      if (hit && vector_area(*oriented_[i], hit->triangle).z() > 0) return false;
     }
     return true;
   }
@@ -218,7 +187,7 @@ const Place& reference_of(const std::vector<Place>& places) {
 
 Spots find_spots(const std::vector<Place>& places, const SpotOptions& options) {
   const Place& reference = reference_of(places);
-  const Sampler level(reference.seen, kLevel, is_oriented(reference));
+  const Sampler level = level_sampler(reference);
   if (level.empty())
     throw Error(Cause::nothing_found,
                 reference.name + ": nothing level that robots could stand on");
@@ -229,7 +198,7 @@ Spots find_spots(const std::vector<Place>& places, const SpotOptions& options) {
   const std::size_t most = 2000 + 200 * options.count;
   std::vector<Vec3> unshared;
   while (spots.floor.size() < options.count && spots.tried++ < most) {
-    const Vec3 p = level.draw(random).first;
+    const Vec3 p = level.draw(random).point;
     if (std::abs(p.z() - spots.height) > 0.2 || !worlds.has_room(p) || !apart.add(p)) continue;
     (others.has_room(p) ? spots.floor : unshared).push_back(p);
   }
@@ -281,12 +250,12 @@ std::vector<Lane> find_lanes(const std::vector<Place>& places, const Spots& spot
 std::vector<Vec3> find_probes(const std::vector<Place>& places, std::size_t count, double off,
                               std::uint64_t seed) {
   const Place& reference = reference_of(places);
-  const Sampler anywhere(reference.seen, 0, false);
+  const Sampler anywhere(reference.seen, [](std::size_t) { return true; });
   Random random(seed + 2);
   std::vector<Vec3> probes;
   while (probes.size() < count) {
-    const auto [p, normal] = anywhere.draw(random);
-    probes.push_back(p + off * normal);
+    const auto [p, triangle] = anywhere.draw(random);
+    probes.push_back(p + off * vector_area(reference.seen, triangle).normalized());
   }
   return probes;
 }

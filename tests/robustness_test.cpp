@@ -32,7 +32,7 @@ FloorGaps gaps_of(const Place& place, const PointCloud* scan = nullptr) {
 TEST_CASE("no robot is lost in a room, and all doors and walls are what they are") {
   const Place place = place_of("room", world_named("room"));
   const Spots spots = find_spots({place}, {.count = 20});
-  const Lost lost = drive_at(place, spots, engine(), 5, 60, quick());
+  const Lost lost = drive_at(place, MeshRays(place.seen), spots, engine(), 5, 60, quick());
   CHECK(lost.robots == 20);
   CHECK(lost.lost == 0);
   const auto simulation = engine().make(place, {}, {}, {});
@@ -47,7 +47,7 @@ TEST_CASE("walls that robots go through are found, by driving and by sweeping") 
   Place place = place_of("room", world_named("room"));
   std::erase_if(place.solids, [](const ExportBody& b) { return b.name.starts_with("wall"); });
   const Spots spots = find_spots({place}, {.count = 20});
-  CHECK(drive_at(place, spots, engine(), 2, 60, quick()).lost > 0);
+  CHECK(drive_at(place, MeshRays(place.seen), spots, engine(), 2, 60, quick()).lost > 0);
   const auto simulation = engine().make(place, {}, {}, {});
   CHECK(go_through(*place.world, *simulation, quick()).walls_open > 20);
 }

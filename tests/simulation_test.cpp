@@ -149,7 +149,8 @@ TEST_CASE("in every engine no robot is lost in a room at 2 m/s") {
     INFO(engine.name);
     const Place place = place_of("room", world_named("room"));
     const Spots spots = find_spots({place}, {.count = 20});
-    const Lost lost = drive_at(place, spots, engine, 2, 60, {.robots = 20, .seconds = 2});
+    const Lost lost =
+        drive_at(place, MeshRays(place.seen), spots, engine, 2, 60, {.robots = 20, .seconds = 2});
     CHECK(lost.robots == 20);
     CHECK(lost.lost == 0);
   }

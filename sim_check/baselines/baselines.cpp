@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines.h"
 
-#include "error.h"
+#include "../named.h"
 #include "gng.h"
 #include "growing_grid.h"
 #include "gsrm.h"
@@ -28,12 +28,7 @@ const std::vector<Baseline>& baselines() {
 }
 
 const Baseline& baseline_named(const std::string& name) {
-  std::string known;
-  for (const Baseline& baseline : baselines()) {
-    if (baseline.name == name) return baseline;
-    known += (known.empty() ? "" : ", ") + baseline.name;
-  }
-  throw Error(Cause::usage, "no baseline '" + name + "'; there is " + known);
+  return find_named(baselines(), name, "baseline");
 }
 
 }  // namespace scanworld::sim

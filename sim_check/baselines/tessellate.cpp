@@ -8,6 +8,7 @@
 
 #include "../random.h"
 #include "error.h"
+#include "world/solids.h"
 
 namespace scanworld::sim {
 
@@ -76,11 +77,8 @@ double gaussian(Random& random) {
 
 void roughen(Mesh& mesh, double noise, std::uint64_t seed) {
   std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
-    for (int v : t) normals[v] += n;
-  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int v : mesh.triangles[i]) normals[v] += vector_area(mesh, i);
   Random random(seed);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     mesh.vertices[i] += noise * gaussian(random) * normals[i].normalized();
@@ -93,13 +91,8 @@ Mesh tessellate(const Mesh& mesh, const TessellateOptions& options) {
     throw Error(Cause::usage,
                 "triangles: " + std::to_string(options.triangles) + " is not from 1 to 12,500,000");
   if (!(options.noise >= 0)) throw Error(Cause::usage, "noise: is not a length");
-  double area = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    area += (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
-  }
   // The number of triangles jumps where edges get long enough to be cut, so it is searched for.
-  const double even = std::sqrt(area / static_cast<double>(options.triangles));
+  const double even = std::sqrt(area_of(mesh) / static_cast<double>(options.triangles));
   double fine = even, coarse = 4 * even;
   for (int i = 0; i < 6; ++i) {
     const double middle = std::sqrt(fine * coarse);

@@ -12,7 +12,6 @@ struct SimplifyOptions {
   bool simple_obstacles = false;  // hulls become the upright box or cylinder with less in it
   double min_size = 0;  // [m] obstacles, and surfaces that are neither floor, ceiling nor wall,
                         // that extend less far are left out
-  bool operator==(const SimplifyOptions&) const = default;
 };
 
 // A world with less in it to collide with. Floors, ceilings and walls stay as they are. With a

@@ -141,14 +141,16 @@ double volume_of(const Mesh& mesh) {
   return volume;
 }
 
+Vec3 vector_area(const Mesh& mesh, std::size_t triangle) {
+  const auto at = [&](std::size_t k) -> const Vec3& {
+    return mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][k])];
+  };
+  return (at(1) - at(0)).cross(at(2) - at(0)) / 2;
+}
+
 double area_of(const Mesh& mesh) {
   double area = 0;
-  for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t k) -> const Vec3& {
-      return mesh.vertices[static_cast<std::size_t>(t[k])];
-    };
-    area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
-  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) area += vector_area(mesh, i).norm();
   return area;
 }
 

@@ -23,6 +23,9 @@ Mesh mesh_of(const Obstacle& obstacle, const Frame& frame);
 // Whether a point is in a convex solid.
 bool contains(const Mesh& convex, const Vec3& point);
 
+// The normal of a triangle, as long as its area [m2].
+Vec3 vector_area(const Mesh& mesh, std::size_t triangle);
+
 // Of a closed mesh [m3], and of any [m2].
 double volume_of(const Mesh& mesh);
 double area_of(const Mesh& mesh);
