@@ -8,7 +8,6 @@
 #include "error.h"
 #include "fidelity.h"
 #include "parallel.h"
-#include "scan/read_scan.h"
 #include "world/cracks.h"
 #include "world/validate.h"
 #include "world/world_json.h"
@@ -38,14 +37,6 @@ std::string summary(const std::vector<Crack>& cracks) {
                      count_of(cracks, Crack::Kind::crack));
 }
 
-Fidelity measure(const CheckRequest& request, const World& world) {
-  const std::vector<Vec3> poses =
-      request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
-  PointCloud cloud = read_scan(request.scans);
-  use_poses(cloud, poses);
-  return fidelity_of(world, cloud);
-}
-
 void run(const CheckRequest& request) {
   if (request.scans.empty() && !request.poses.empty())
     throw Error(Cause::usage, "--poses needs a SCAN that was made from there");
@@ -56,7 +47,8 @@ void run(const CheckRequest& request) {
   const bool is_valid = reasons.empty();
   const std::vector<Crack> cracks = is_valid ? find_cracks(world) : std::vector<Crack>{};
   std::optional<Fidelity> fidelity;
-  if (is_valid && !request.scans.empty()) fidelity = measure(request, world);
+  if (is_valid && !request.scans.empty())
+    fidelity = fidelity_of(world, read_scan_with_poses(request.scans, request.poses));
   if (request.json) {
     Json places = Json::array();
     for (const Crack& crack : cracks) places.push_back(text_of(crack));

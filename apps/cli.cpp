@@ -106,12 +106,6 @@ FileKind kind_of(const std::filesystem::path& file) {
   return FileKind::scan;
 }
 
-std::string grouped(std::size_t number) {
-  std::string text = fmt::to_string(number);
-  for (std::size_t i = text.size(); i > 3;) text.insert(i -= 3, ",");
-  return text;
-}
-
 std::string text_of(const Vec3& v) {
   return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z());
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "progress.h"
+#include "text.h"
 #include "world/world.h"
 
 namespace scanworld::cli {
@@ -48,8 +49,6 @@ struct Console {
 enum class FileKind { scan, mesh, world };
 FileKind kind_of(const std::filesystem::path& file);
 
-// A file in a folder, joined; numbers grouped by thousands; boxes as text.
-std::string grouped(std::size_t number);
 std::string text_of(const Vec3& v);
 
 Json json_of(const Vec3& v);

@@ -11,6 +11,7 @@
 #include "cli.h"
 #include "reconstruct.h"
 #include "rival/scale.h"
+#include "scan/read_scan.h"
 
 namespace scanworld::cli {
 
@@ -23,19 +24,13 @@ Json json_of(const Distances& d) { return {{"median", d.median}, {"p95", d.p95}}
 
 Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-std::string length_text(double metres) { return fmt::format("{:.1f} mm", 1e3 * metres); }
-
-std::string value_text(double value, const std::string& unit) {
-  if (unit == "m") return length_text(value);
-  if (unit == "%") return fmt::format("{:.2f} %", 100 * value);
-  return fmt::format("{:.0f}", value);
-}
+std::string length_text(double metres) { return figure_text(metres, "m"); }
 
 std::string criterion_line(const Criterion& c) {
   if (!c.value)
     return fmt::format("  {:<30} not measured: no scanner positions (--poses)\n", c.name);
-  return fmt::format("  {:<30} {:>10}  {} {:<9}  {}\n", c.name, value_text(*c.value, c.unit),
-                     c.is_minimum ? "at least" : "at most ", value_text(c.limit, c.unit),
+  return fmt::format("  {:<30} {:>10}  {} {:<9}  {}\n", c.name, figure_text(*c.value, c.unit),
+                     c.is_minimum ? "at least" : "at most ", figure_text(c.limit, c.unit),
                      c.is_met() ? "passed" : "FAILED");
 }
 
@@ -58,7 +53,15 @@ void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses) {
   for (const Vec3& pose : poses) cloud.viewpoints.push_back(pose - cloud.origin);
 }
 
-Fidelity fidelity_of(const World& world, const PointCloud& cloud) {
+PointCloud read_scan_with_poses(const std::vector<std::filesystem::path>& scans,
+                                const std::filesystem::path& poses) {
+  const std::vector<Vec3> positions = poses.empty() ? std::vector<Vec3>{} : read_poses(poses);
+  PointCloud cloud = read_scan(scans);
+  use_poses(cloud, positions);
+  return cloud;
+}
+
+Fidelity fidelity_of(const World& world, const PointCloud& cloud, std::size_t points) {
   ReconstructOptions options;
   apply_preset(options, preset_for(cloud));
   const OptionList list = list_options(options);
@@ -67,9 +70,11 @@ Fidelity fidelity_of(const World& world, const PointCloud& cloud) {
     if (option.name.starts_with("rival.scale.") && used.contains(option.name))
       set_option(list, option.name, scanworld::text_of(used.at(option.name)));
   const rival::Scale scale = rival::estimate_scale(cloud, options.rival.scale);
-  return measure_fidelity(
-      world, cloud,
-      {.noise = scale.noise, .spacing = scale.spacing, .depth_step = scale.depth_step});
+  return measure_fidelity(world, cloud,
+                          {.noise = scale.noise,
+                           .spacing = scale.spacing,
+                           .depth_step = scale.depth_step,
+                           .points = points});
 }
 
 Json json_of(const Fidelity& f) {
@@ -83,6 +88,7 @@ Json json_of(const Fidelity& f) {
                         {"coverage", json_of(s.coverage)}});
   for (const Criterion& c : f.criteria)
     criteria.push_back({{"name", c.name},
+                        {"unit", c.unit},
                         {"value", json_of(c.value)},
                         {c.is_minimum ? "at_least" : "at_most", c.limit},
                         {"met", c.value ? Json(c.is_met()) : Json(nullptr)}});
@@ -111,7 +117,7 @@ std::string verdict_of(const Fidelity& fidelity) {
   for (const Criterion& c : fidelity.criteria)
     if (!c.is_met())
       failed +=
-          fmt::format("{}{} {}", failed.empty() ? "" : ", ", c.name, value_text(*c.value, c.unit));
+          fmt::format("{}{} {}", failed.empty() ? "" : ", ", c.name, figure_text(*c.value, c.unit));
   return failed.empty() ? "faithful" : "not faithful: " + failed;
 }
 

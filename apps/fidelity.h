@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "world/fidelity.h"
 
@@ -16,9 +17,14 @@ namespace scanworld::cli {
 // leave it as it is.
 void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses);
 
+// Reads a scan, and gives it the scanner positions of a file where its name is not empty.
+PointCloud read_scan_with_poses(const std::vector<std::filesystem::path>& scans,
+                                const std::filesystem::path& poses);
+
 // Measures a world against its scan, whose noise and spacing are found as the world's own options
-// say, so that `check` finds what `build` found.
-Fidelity fidelity_of(const World& world, const PointCloud& cloud);
+// say, so that `check` finds what `build` found. Looks at about so many points.
+Fidelity fidelity_of(const World& world, const PointCloud& cloud,
+                     std::size_t points = FidelityOptions{}.points);
 
 // Shares, lengths in metres; null for what was not measured.
 nlohmann::ordered_json json_of(const Fidelity& fidelity);

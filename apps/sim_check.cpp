@@ -14,7 +14,6 @@
 #include "error.h"
 #include "fidelity.h"
 #include "files.h"
-#include "scan/read_scan.h"
 #include "sim_check/report.h"
 
 namespace scanworld::cli {
@@ -54,21 +53,13 @@ sim::CompareOptions resolve(const SimCheckRequest& request) {
   return o;
 }
 
-PointCloud read_scan_with_poses(const SimCheckRequest& request) {
-  const std::vector<Vec3> poses =
-      request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
-  PointCloud scan = read_scan(request.scans);
-  use_poses(scan, poses);
-  return scan;
-}
-
 void run(const SimCheckRequest& request) {
   const sim::CompareOptions options = resolve(request);
   std::optional<OutputFolder> folder;
   if (!request.out.empty()) folder.emplace(request.out, "sim_check.json");
   const Progress progress = request.console.make_progress();
   std::optional<PointCloud> scan;
-  if (!request.scans.empty()) scan = read_scan_with_poses(request);
+  if (!request.scans.empty()) scan = read_scan_with_poses(request.scans, request.poses);
   const sim::Comparison comparison =
       sim::compare(request.places, scan ? &*scan : nullptr, options, progress);
   request.console.finish_progress();

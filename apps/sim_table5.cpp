@@ -13,7 +13,6 @@
 #include "fidelity.h"
 #include "files.h"
 #include "reconstruct.h"
-#include "scan/read_scan.h"
 #include "sim_check.h"
 #include "sim_check/baselines/baselines.h"
 #include "sim_check/report.h"
@@ -158,12 +157,9 @@ void run(const Table5Request& request) {
   const sim::CompareOptions options = request.measure.resolved();
   if (!options.with_speed)
     throw Error(Cause::usage, "table5 is about speed; --only robustness leaves nothing of it");
-  const std::vector<Vec3> poses =
-      request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
   OutputFolder folder(request.out, "table5.md");
   const Progress progress = request.console.make_progress();
-  PointCloud cloud = read_scan(request.scans);
-  use_poses(cloud, poses);
+  const PointCloud cloud = read_scan_with_poses(request.scans, request.poses);
   const std::vector<Entry> entries = make_entries(request, cloud, progress);
   const Progress rest = [&](std::string_view what, double share) {
     if (progress) progress(what, 0.5 + share / 2);

@@ -49,7 +49,7 @@ def read_obj(path):
             elif line.startswith('v '):
                 vertices.append([float(w) for w in words[1:4]])
             elif line.startswith('f '):
-                corners.append([int(w) - 1 for w in words[1:4]])
+                corners.append([int(w.split('/')[0]) - 1 for w in words[1:4]])
                 ids.append(current)
     return np.array(vertices)[np.array(corners)], np.array(ids)
 

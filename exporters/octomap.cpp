@@ -15,6 +15,7 @@
 #include "occupancy_grid.h"
 #include "octree_file.h"
 #include "parallel.h"
+#include "world/glass.h"
 #include "world/solids.h"
 #include "world/triangulate.h"
 
@@ -45,19 +46,6 @@ struct Solid {
   Mesh mesh;
   Box3 box;
 };
-
-// The world with a surface where a pane is.
-World with_panes(World world) {
-  for (const Opening& o : world.openings) {
-    if (!o.glass) continue;
-    if (const Surface* s = find_surface(world, o.surface)) {
-      Surface pane = *s;
-      pane.outer = o.loop, pane.holes.clear();
-      world.surfaces.push_back(std::move(pane));
-    }
-  }
-  return world;
-}
 
 Box3 rounded_out(const Box3& box, double step) {
   if (box.isEmpty()) return box;

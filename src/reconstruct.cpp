@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "error.h"
+#include "record.h"
 #include "surface/describe.h"
 #include "thesis/labels.h"
 #include "thesis/triangulation.h"
@@ -54,7 +55,7 @@ constexpr double kLargestNoise = 0.3, kLargestSpacing = 1.5;  // [m]
 // The stages of the thesis, by the names in its Table 4, and what comes after them.
 std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
                                          const thesis::ThesisOptions& options, StageLog& log,
-                                         ReconstructResult& result) {
+                                         ReconstructResult& result, Recorder& recorder) {
   using namespace thesis;
   const FilteredPoints filtered = log.run("Filtering", "points -> medians", cloud,
                                           [&] { return filter_points(cloud, options.filter); });
@@ -64,9 +65,13 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
   const std::vector<Cluster> placed =
       log.run("Placing small clusters", "medians -> clusters", tree,
               [&] { return place_clusters(tree, delta, options.placing); });
+  record_placing(recorder, filtered.points, placed);
   const std::vector<Cluster> walls =
-      log.run("Spreading clusters", "clusters -> walls", placed,
-              [&] { return spread_clusters(tree, delta, placed, options.spreading); });
+      log.run("Spreading clusters", "clusters -> walls", placed, [&] {
+        return spread_clusters(tree, delta, placed, options.spreading,
+                               watch_spreading(recorder, filtered.points.size()));
+      });
+  record_walls(recorder, filtered.points.size(), walls);
   result.labels = log.run("Labelling points", "points -> points", cloud, [&] {
     return label_points(cloud, filtered, walls, tree, options.spreading.min_distance * delta);
   });
@@ -76,10 +81,13 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
                                           [&] { return find_borders(fitted, walls); });
   polygons = log.run("Polygons vertices fitting", "vertices -> vertices", polygons,
                      [&] { return snap_vertices(polygons, walls, tree, delta, options.snapping); });
+  recorder.add("Final approximation", "vertices go to where planes meet", loops_of(polygons));
   polygons = log.run("Vertices reduction", "vertices -> vertices", polygons,
                      [&] { return reduce_vertices(polygons, delta, options.reduction); });
-  log.run("Triangulation", "vertices -> triangles", polygons,
-          [&] { return triangulate(polygons, walls); });
+  recorder.add("Final approximation", "vertices on straight edges are dropped", loops_of(polygons));
+  const auto triangles = log.run("Triangulation", "vertices -> triangles", polygons,
+                                 [&] { return triangulate(polygons, walls); });
+  recorder.add("Final approximation", "polygons become triangles", loops_of(polygons, triangles));
   return log.run("Describing walls", "walls -> surfaces", walls, [&] {
     return describe_walls(cloud, result.labels, filtered.points, delta, walls, polygons);
   });
@@ -102,17 +110,20 @@ void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
     if (label >= 0) label = first[static_cast<std::size_t>(label)];
 }
 
+// Labels that are called otherwise; -1 stays.
+std::vector<std::int32_t> labels_by(const std::vector<std::int32_t>& new_label,
+                                    std::vector<std::int32_t> labels) {
+  for (std::int32_t& l : labels)
+    if (l >= 0) l = new_label[static_cast<std::size_t>(l)];
+  return labels;
+}
+
 // The voxels' points with their planes.
 surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clustering& clusters,
                                       const std::vector<std::int32_t>& plane_of_cluster) {
   std::vector<Vec3f> sites;
-  std::vector<std::int32_t> plane_of;
-  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
-    const std::int32_t l = clusters.label[i];
-    sites.push_back(grid.sites[i].mean);
-    plane_of.push_back(l == rival::kNone ? l : plane_of_cluster[static_cast<std::size_t>(l)]);
-  }
-  return surface::surroundings_of(std::move(sites), std::move(plane_of));
+  for (const rival::Site& site : grid.sites) sites.push_back(site.mean);
+  return surface::surroundings_of(std::move(sites), labels_by(plane_of_cluster, clusters.label));
 }
 
 // What planes say about up, by the number of their points.
@@ -150,7 +161,7 @@ std::vector<Vec3> places_of(const surface::Surroundings& around, const CloudInWo
 template <typename Around>
 Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, double voxel,
                     const Around& find_around, const surface::SurfaceOptions& options,
-                    StageLog& log, ReconstructResult& result) {
+                    StageLog& log, ReconstructResult& result, Recorder& recorder) {
   using namespace surface;
   Members members;
   std::optional<PatchRays> rays;
@@ -184,8 +195,11 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
   const Pieces pieces = log.run("Outlining", "patches -> polygons", patches, [&] {
     return add_reveals(outline_patches(patches, lines, edges, options), options.reveals);
   });
+  recorder.add("Arrangement", "lines cut each plane into cells; those with evidence are kept",
+               loops_of(pieces.polygons));
   std::vector<FoundSurface> surfaces = log.run("Welding", "polygons -> surfaces", pieces, [&] {
     const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
+    recorder.add("Arrangement", "corners that are nearly one become one", loops_of(welded));
     relabel(welded, planes.size(), result);
     return describe(cloud, members, patches, pieces.planes, welded);
   });
@@ -194,7 +208,7 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
 
 // The default method, docs/method.md.
 Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, StageLog& log,
-                    ReconstructResult& result) {
+                    ReconstructResult& result, Recorder& recorder) {
   using namespace rival;
   const RivalOptions& options = all.rival;
   const Scale scale = log.run("Estimating the scale", "points -> lengths", cloud,
@@ -221,17 +235,22 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     neighbors = update_neighbors(grid, options.neighbors, std::move(neighbors), changed);
     return fit_locally(grid, neighbors, scale, options.local, std::move(local), changed);
   });
+  record_seeds(recorder, grid, local);
   Clustering clusters = log.run("Growing clusters", "sites -> clusters", local, [&] {
-    return grow_clusters(grid, neighbors, scale, local, {}, options.growth);
+    return grow_clusters(grid, neighbors, scale, local, {}, options.growth,
+                         watch(recorder, "Growth"));
   });
   clusters = log.run("Rivalry", "clusters -> clusters", clusters, [&] {
-    return settle(grid, neighbors, scale, local, std::move(clusters), options);
+    return settle(grid, neighbors, scale, local, std::move(clusters), options,
+                  watch(recorder, "Rivalry"));
   });
   clusters = log.run("Parting and bridging", "clusters -> clusters", clusters, [&] {
-    return part(grid, neighbors, scale, local, std::move(clusters), options);
+    return part(grid, neighbors, scale, local, std::move(clusters), options,
+                watch(recorder, "Parting and bridging"));
   });
   clusters = log.run("Weighing evidence", "clusters -> clusters", clusters, [&] {
-    return confirm(grid, neighbors, scale, local, std::move(clusters), options);
+    return confirm(grid, neighbors, scale, local, std::move(clusters), options,
+                   watch(recorder, "Evidence"));
   });
   clusters = log.run("Regularising", "clusters -> clusters", clusters,
                      [&] { return regularise(scale, std::move(clusters), options.regularise); });
@@ -244,13 +263,15 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     result.report.plane_noise.push_back(plane.noise);
   std::vector<Plane> planes;
   for (const LabelledPlane& plane : labelled.planes) planes.push_back(plane.fit.plane);
+  recorder.add("Evidence", "planes are turned parallel and square where the points allow it",
+               labels_by(labelled.plane_of, clusters.label), planes);
   const double voxel = grid.voxel;
   const auto find_around = [&] {
     surface::Surroundings around = surroundings_of(grid, clusters, labelled.plane_of);
     grid = {}, neighbors = {};
     return around;
   };
-  return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result);
+  return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result, recorder);
 }
 
 // Adds the solids of what no surface explains.
@@ -272,10 +293,11 @@ void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, St
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
+  Recorder recorder(options.record);
   StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 23);
   Found found = options.method == Method::thesis
-                    ? Found{find_by_thesis(cloud, options.thesis, log, result), {}}
-                    : find_by_rival(cloud, options, log, result);
+                    ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder), {}}
+                    : find_by_rival(cloud, options, log, result, recorder);
   drop_degenerate(found.surfaces, result);
   if (found.surfaces.empty())
     throw Error(
@@ -303,6 +325,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                         [&] { return find_rooms(world, options.rooms); });
   world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
 
+  result.replay = std::move(recorder).finish(world.frame, cloud.origin);
   ReconstructOptions used = options;
   for (const Option& option : list_options(used))
     result.world.provenance.options[option.name] = option.value();

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "options.h"
 #include "progress.h"
+#include "replay.h"
 #include "report.h"
 #include "rival/rival.h"
 #include "surface/surface.h"
@@ -33,12 +35,14 @@ struct ReconstructOptions {
   ColliderOptions colliders;
   RoomOptions rooms;
   LevelOptions frame;
+  bool record = false;  // also make a replay
 };
 
 struct ReconstructResult {
   World world;  // without provenance inputs, which only the caller knows
   Report report;
   std::vector<std::int32_t> labels;  // for each point of the cloud the id of its surface, -1 = none
+  std::optional<Replay> replay;      // where it was asked for
 };
 
 // Makes a world of a scan. The same points and options give the same world, whatever the number of

@@ -28,22 +28,26 @@ SightLines follow(const std::vector<SeenPoint>& points, const std::vector<Vec3>&
 TEST_CASE("a ray that ends at the wall is free and stops; one that goes through is a violation") {
   const SightLines on = follow({{{0, 0.01, 1}, kY}}, {{0, 3, 1}});
   CHECK(on.free_rays == 1);
-  CHECK(on.violations == 0);
+  CHECK(on.violations.empty());
   CHECK(on.ending_rays == 1);
-  CHECK(on.leaks == 0);
+  CHECK(on.leaks.empty());
   const SightLines through = follow({{{0, -1, 1}, kY}}, {{0, 3, 1}});
-  CHECK(through.violations == 1);
-  CHECK(through.leaks == 1);  // nothing is at the point
+  REQUIRE(through.violations.size() == 1);
+  CHECK((through.violations[0].from - Vec3(0, 3, 1)).norm() < 1e-9);
+  CHECK((through.violations[0].met - Vec3(0, 0, 1)).norm() < 1e-6);
+  CHECK((through.violations[0].point - Vec3(0, -1, 1)).norm() < 1e-9);
+  REQUIRE(through.leaks.size() == 1);  // nothing is at the point
+  CHECK((through.leaks[0].point - Vec3(0, -1, 1)).norm() < 1e-9);
   const SightLines beside = follow({{{2.5, 0, 1}, kY}}, {{2.5, 3, 1}});
-  CHECK(beside.violations == 0);
-  CHECK(beside.leaks == 1);
+  CHECK(beside.violations.empty());
+  CHECK(beside.leaks.size() == 1);
 }
 
 TEST_CASE("a wall 8 cm before a point is no violation, one 12 cm before it is") {
-  CHECK(follow({{{0, -0.08, 1}, {}}}, {{0, 3, 1}}).violations == 0);
-  CHECK(follow({{{0, -0.12, 1}, {}}}, {{0, 3, 1}}).violations == 1);
-  CHECK(follow({{{0, 0.18, 1}, kY}}, {{0, 3, 1}}).leaks == 0);  // it may be 20 cm behind
-  CHECK(follow({{{0, 0.22, 1}, kY}}, {{0, 3, 1}}).leaks == 1);
+  CHECK(follow({{{0, -0.08, 1}, {}}}, {{0, 3, 1}}).violations.empty());
+  CHECK(follow({{{0, -0.12, 1}, {}}}, {{0, 3, 1}}).violations.size() == 1);
+  CHECK(follow({{{0, 0.18, 1}, kY}}, {{0, 3, 1}}).leaks.empty());  // it may be 20 cm behind
+  CHECK(follow({{{0, 0.22, 1}, kY}}, {{0, 3, 1}}).leaks.size() == 1);
 }
 
 TEST_CASE("grazing rays, points without a surface and points at the scanner tell less") {
@@ -65,7 +69,7 @@ TEST_CASE("a point beyond the wall of the nearest viewpoint was seen from anothe
   const std::vector<Vec3> viewpoints = {{0, 0.5, 1}, {0, -3, 1}};
   const SightLines seen = follow({{{0, -1, 1}, {}}}, viewpoints);
   CHECK(seen.free_rays == 1);
-  CHECK(seen.violations == 0);
+  CHECK(seen.violations.empty());
   // No viewpoint sees a point that is beyond the wall for all of them.
-  CHECK(follow({{{0, -1, 1}, {}}}, {{0, 0.5, 1}, {1, 3, 1}, {-1, 3, 2}}).violations == 1);
+  CHECK(follow({{{0, -1, 1}, {}}}, {{0, 0.5, 1}, {1, 3, 1}, {-1, 3, 2}}).violations.size() == 1);
 }

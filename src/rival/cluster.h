@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "grid.h"
@@ -38,6 +40,9 @@ struct Clustering {
     if (label[site] != l) label[site] = l, awake[site] = 1;
   }
 };
+
+// Told of clusters on the way, and in words what just happened to them; it changes nothing.
+using Observer = std::function<void(std::string_view what, const Clustering& clusters)>;
 
 inline std::size_t count_of(const Clustering& c) { return c.clusters.size(); }
 

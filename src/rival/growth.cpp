@@ -68,6 +68,7 @@ class Grower {
       for (std::uint32_t j : neighbors_.of(i)) c_.awake[j] = 1;
   }
 
+  const Clustering& so_far() const { return c_; }
   Clustering take_result() { return std::move(c_); }
 
  private:
@@ -126,9 +127,17 @@ class Grower {
 
 Clustering grow_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                          const std::vector<LocalPlane>& local, Clustering c,
-                         const GrowthOptions& options) {
+                         const GrowthOptions& options, const Observer& observe) {
   Grower grower(grid, neighbors, scale, local, std::move(c), options);
-  for (std::uint32_t seed : grower.find_seeds()) grower.grow(seed);
+  std::size_t told_at = 1;  // clusters
+  for (std::uint32_t seed : grower.find_seeds()) {
+    grower.grow(seed);
+    const Clustering& so_far = grower.so_far();
+    if (!observe || so_far.clusters.size() < told_at) continue;
+    observe("clusters grow, from the flattest places first", so_far);
+    told_at = 2 * so_far.clusters.size();
+  }
+  if (observe) observe("all clusters have grown", grower.so_far());
   return grower.take_result();
 }
 

@@ -14,9 +14,10 @@ struct GrowthOptions {
   int min_points = 20;        // clusters of fewer are dropped
 };
 
-// Grows clusters over neighbouring free sites, from the flattest first.
+// Grows clusters over neighbouring free sites, from the flattest first. The observer is told each
+// time that their number has doubled, and at the end.
 Clustering grow_clusters(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                          const std::vector<LocalPlane>& local, Clustering clustering,
-                         const GrowthOptions& options = {});
+                         const GrowthOptions& options = {}, const Observer& observe = {});
 
 }  // namespace scanworld::rival

@@ -4,10 +4,20 @@
 
 namespace scanworld::rival {
 
+namespace {
+
+void tell(const Observer& observe, std::string_view what, const Clustering& clusters) {
+  if (observe) observe(what, clusters);
+}
+
+}  // namespace
+
 Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                  std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options) {
-  c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+                  std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options,
+                  const Observer& observe) {
+  c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
   c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
+  tell(observe, "neighbours with one plane are united", c);
   NeighborOptions wider = options.neighbors;
   wider.max_reach = options.birth_reach;
   std::vector<std::uint8_t> left(grid.sites.size());
@@ -16,25 +26,31 @@ Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& sca
     const Neighbors around = find_neighbors(grid, wider, left);
     local = fit_locally(grid, around, scale, options.local, std::move(local));
     c = grow_clusters(grid, around, scale, local, std::move(c), options.growth);
-    c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+    tell(observe, "new clusters grow from what is left", c);
+    c = compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
     c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
+    tell(observe, "neighbours with one plane are united", c);
   }
   return c;
 }
 
 Clustering part(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                const std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options) {
+                const std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options,
+                const Observer& observe) {
   c = split_clusters(grid, neighbors, std::move(c), options.split);
+  tell(observe, "what another plane parts becomes two", c);
   c = bridge_clusters(grid, scale, std::move(c), options.bridge);
-  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+  tell(observe, "what is only hidden is bridged", c);
+  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
 }
 
 Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
-                   const std::vector<LocalPlane>& local, Clustering c,
-                   const RivalOptions& options) {
+                   const std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options,
+                   const Observer& observe) {
   c = weigh_evidence(grid, neighbors, scale, std::move(c), options.evidence);
   c = drop_columns(grid, neighbors, scale, std::move(c), options.columns);
-  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry);
+  tell(observe, "what is no plane is dropped", c);
+  return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
 }
 
 OptionList list_options(RivalOptions& o) {

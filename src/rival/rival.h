@@ -47,17 +47,17 @@ OptionList list_options(RivalOptions& options);
 // lets these compete too. The local planes of those sites become those of what is left.
 Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                   std::vector<LocalPlane>& local, Clustering clustering,
-                  const RivalOptions& options = {});
+                  const RivalOptions& options = {}, const Observer& observe = {});
 
 // Makes each cluster one connected face: parts what other planes divide and bridges what is only
 // hidden.
 Clustering part(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                 const std::vector<LocalPlane>& local, Clustering clustering,
-                const RivalOptions& options = {});
+                const RivalOptions& options = {}, const Observer& observe = {});
 
 // Drops what is no plane, and lets the others compete for what is left.
 Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const std::vector<LocalPlane>& local, Clustering clustering,
-                   const RivalOptions& options = {});
+                   const RivalOptions& options = {}, const Observer& observe = {});
 
 }  // namespace scanworld::rival

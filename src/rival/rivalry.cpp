@@ -44,7 +44,7 @@ std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, co
 
 Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const std::vector<LocalPlane>& local, Clustering c,
-                   const RivalryOptions& options) {
+                   const RivalryOptions& options, const Observer& observe) {
   struct Change {
     std::uint32_t site;
     std::int32_t label;
@@ -84,6 +84,7 @@ Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& sc
       }
     for (std::size_t k = 0; k < changed.size(); ++k)
       if (changed[k] && c.clusters[k].moments.n > 3) c.clusters[k].fit = fit(c.clusters[k].moments);
+    if (observe) observe("each voxel goes to the cluster that explains it best", c);
     most = std::max(most, changes);
     if (static_cast<double>(changes) <= options.stop_share * static_cast<double>(most)) break;
   }

@@ -18,9 +18,10 @@ struct RivalryOptions {
 };
 
 // Clusters compete for sites: each site goes to the cluster near by that explains it at the lowest
-// price, and clusters are fitted to what they hold, in turns.
+// price, and clusters are fitted to what they hold, in turns. The observer is told after each
+// sweep.
 Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const std::vector<LocalPlane>& local, Clustering clustering,
-                   const RivalryOptions& options = {});
+                   const RivalryOptions& options = {}, const Observer& observe = {});
 
 }  // namespace scanworld::rival

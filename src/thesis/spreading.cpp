@@ -61,6 +61,16 @@ class Rivalry {
     return changes;
   }
 
+  // The clusters as they are, with the points that they own.
+  std::vector<Cluster> so_far() const {
+    std::vector<Cluster> all;
+    for (const Cluster& cluster : clusters_) all.push_back({.fit = cluster.fit});
+    for (std::size_t p = 0; p < owner_.size(); ++p)
+      if (owner_[p] != kNobody)
+        all[static_cast<std::size_t>(owner_[p])].members.push_back(static_cast<int>(p));
+    return all;
+  }
+
   std::vector<Cluster> result() {
     std::vector<Cluster> left;
     for (std::size_t c = 0; c < clusters_.size(); ++c)
@@ -154,12 +164,13 @@ class Rivalry {
 }  // namespace
 
 std::vector<Cluster> spread_clusters(const KdTree& tree, double delta,
-                                     std::vector<Cluster> clusters,
-                                     const SpreadingOptions& options) {
+                                     std::vector<Cluster> clusters, const SpreadingOptions& options,
+                                     const SpreadingObserver& observe) {
   Rivalry rivalry(tree, delta, std::move(clusters), options);
   std::size_t most = 0;
   for (int round = 0; round < options.max_rounds; ++round) {
     const std::size_t changes = rivalry.round();
+    if (observe) observe(rivalry.so_far());
     most = std::max(most, changes);
     if (static_cast<double>(changes) <= options.stop_share * static_cast<double>(most)) break;
   }

@@ -68,6 +68,7 @@ std::vector<Diagonal> diagonals_of(const std::vector<std::array<Vec2, 3>>& trian
 }  // namespace
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  if (points.empty()) return {};
   std::sort(points.begin(), points.end(), [](const Vec2& p, const Vec2& q) {
     return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
   });

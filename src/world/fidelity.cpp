@@ -216,12 +216,17 @@ class Measurement {
   void look_at_points(Fidelity& result) {
     std::vector<std::pair<double, double>> distances(points_.size());
     explained_.resize(points_.size());
+    result.atlas.points.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
       double distance = near_[i] ? near_[i]->distance : max_distance_;
       const double tolerance = tolerance_of(noise_[i]);
       if (distance > tolerance && is_in_obstacle(points_[i])) distance = 0;
       explained_[i] = distance <= tolerance;
       distances[i] = {distance, 1};
+      const bool on_surface = explained_[i] && near_[i] && near_[i]->is_surface;
+      result.atlas.points[i] = {points_[i], distance,
+                                on_surface ? static_cast<int>(near_[i]->index) : -1,
+                                explained_[i] != 0};
     });
     result.scan_to_world = distances_of(std::move(distances));
     result.unexplained = static_cast<double>(std::count(explained_.begin(), explained_.end(), 0)) /
@@ -296,18 +301,20 @@ class Measurement {
         seen.push_back({points_[i], {}});
       }
     }
-    const SightLines lines = follow_sight_lines(seen, viewpoints(), scene_,
-                                                {.before = options_.before,
-                                                 .behind = options_.behind,
-                                                 .min_range = options_.min_range,
-                                                 .max_incidence = options_.max_incidence});
+    SightLines lines = follow_sight_lines(seen, viewpoints(), scene_,
+                                          {.before = options_.before,
+                                           .behind = options_.behind,
+                                           .min_range = options_.min_range,
+                                           .max_incidence = options_.max_incidence});
     result.rays = lines.free_rays;
     const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
       if (whole == 0) return std::nullopt;
       return static_cast<double>(part) / static_cast<double>(whole);
     };
-    result.free_space_violations = share(lines.violations, lines.free_rays);
-    result.leaks = share(lines.leaks, lines.ending_rays);
+    result.free_space_violations = share(lines.violations.size(), lines.free_rays);
+    result.leaks = share(lines.leaks.size(), lines.ending_rays);
+    result.atlas.violations = std::move(lines.violations);
+    result.atlas.leaks = std::move(lines.leaks);
   }
 
   const World& world_;
@@ -337,6 +344,12 @@ void judge(Fidelity& f, const FidelityOptions& o) {
 }
 
 }  // namespace
+
+std::string figure_text(double value, const std::string& unit) {
+  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
+  if (unit == "%") return fmt::format("{:.2f} %", 100 * value);
+  return fmt::format("{:.0f}", value);
+}
 
 bool Fidelity::is_faithful() const {
   return std::all_of(criteria.begin(), criteria.end(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sight_lines.h"
 #include "world.h"
 
 namespace scanworld {
@@ -68,6 +69,19 @@ struct SurfaceFidelity {
   std::optional<double> coverage;  // share of the area that has points near; not of inferred ones
 };
 
+// Where a scan and a world differ, place by place, in the world's axes.
+struct ErrorAtlas {
+  struct Point {
+    Vec3 at;
+    double distance = 0;     // [m] to the surface or obstacle nearest to it, 0 inside an obstacle
+    int surface = -1;        // index into World::surfaces of the one that explains it; -1 = none
+    bool explained = false;  // it is within the tolerance of a surface or an obstacle
+  };
+  std::vector<Point> points;  // that were looked at; the first n are an even choice too
+  std::vector<Violation> violations;
+  std::vector<Leak> leaks;
+};
+
 // One thing that a world must keep to be called faithful.
 struct Criterion {
   std::string name, unit;       // the unit is "m", "%" or empty for a count
@@ -77,6 +91,9 @@ struct Criterion {
 
   bool is_met() const { return !value || (is_minimum ? *value >= limit : *value <= limit); }
 };
+
+// A figure in this unit in words: lengths in millimetres, shares as per cent.
+std::string figure_text(double value, const std::string& unit);
 
 struct Fidelity {
   std::size_t points = 0, places = 0, rays = 0;  // that were looked at
@@ -91,6 +108,7 @@ struct Fidelity {
   std::vector<SurfaceFidelity> surfaces;  // in the order of the world's
   std::vector<int> misplaced;             // ids of surfaces that are off their points
   std::vector<Criterion> criteria;
+  ErrorAtlas atlas;
 
   bool is_faithful() const;
 };

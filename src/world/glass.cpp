@@ -81,4 +81,16 @@ std::vector<Opening> flag_glass(const World& world, std::vector<Opening> opening
   return openings;
 }
 
+World with_panes(World world) {
+  for (const Opening& o : world.openings) {
+    if (!o.glass) continue;
+    if (const Surface* s = find_surface(world, o.surface)) {
+      Surface pane = *s;
+      pane.outer = o.loop, pane.holes.clear();
+      world.surfaces.push_back(std::move(pane));
+    }
+  }
+  return world;
+}
+
 }  // namespace scanworld

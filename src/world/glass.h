@@ -23,4 +23,7 @@ std::vector<Opening> flag_glass(const World& world, std::vector<Opening> opening
                                 const std::vector<Vec3>& viewpoints,
                                 const GlassOptions& options = {});
 
+// The world with one more surface for each pane, after its own: its wall's, but for the loop.
+World with_panes(World world);
+
 }  // namespace scanworld

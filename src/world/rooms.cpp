@@ -8,9 +8,8 @@
 #include <map>
 #include <set>
 
-#include "level.h"
 #include "room_cells.h"
-#include "triangulate.h"
+#include "upright.h"
 
 namespace scanworld {
 
@@ -19,55 +18,6 @@ namespace {
 constexpr double kMaxCells = 4e6;       // of a storey
 constexpr double kMinShared = 0.25;     // [m2] or [m] of a room with a surface that bounds it
 constexpr double kLeastHeadroom = 1.2;  // [m] what is lower over a floor is furniture
-
-// The world upright.
-struct Upright {
-  explicit Upright(const World& world) : turn(upright_turn(world.frame)), mesh(triangulate(world)) {
-    for (Vec3& v : mesh.mesh.vertices) v = turn * v;
-    for (const Surface& s : world.surfaces) normals.push_back(turn * s.plane.normal);
-  }
-  std::array<Vec3, 3> corners(std::size_t triangle) const {
-    const auto& t = mesh.mesh.triangles[triangle];
-    const auto at = [&](std::size_t k) {
-      return mesh.mesh.vertices[static_cast<std::size_t>(t[k])];
-    };
-    return {at(0), at(1), at(2)};
-  }
-  std::vector<Vec3> ring(const Loop& loop) const {
-    std::vector<Vec3> points;
-    for (int v : loop) points.push_back(mesh.mesh.vertices[static_cast<std::size_t>(v)]);
-    return points;
-  }
-
-  Eigen::Quaterniond turn;
-  WorldMesh mesh;
-  std::vector<Vec3> normals;  // of surfaces
-};
-
-// Where a surface is cut by a level plane.
-struct WallCut {
-  std::size_t surface;
-  Vec2 a, b;
-  Vec2 front;  // unit vector to its free side
-};
-
-std::vector<WallCut> cut_at(double height, const Upright& upright) {
-  std::vector<WallCut> cuts;
-  for (std::size_t t = 0; t < upright.mesh.surface.size(); ++t) {
-    const auto corners = upright.corners(t);
-    std::vector<Vec2> ends;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &p = corners[k], &q = corners[(k + 1) % 3];
-      if ((p.z() >= height) == (q.z() >= height)) continue;
-      const Vec3 at = p + (q - p) * ((height - p.z()) / (q.z() - p.z()));
-      ends.push_back(at.head<2>());
-    }
-    if (ends.size() != 2) continue;
-    const auto s = static_cast<std::size_t>(upright.mesh.surface[t]);
-    cuts.push_back({s, ends[0], ends[1], upright.normals[s].head<2>().normalized()});
-  }
-  return cuts;
-}
 
 // The height that few ceilings over a level are below; nothing where there are none.
 std::optional<double> low_ceiling(const World& world, double level, double next_level) {

@@ -13,8 +13,8 @@ namespace {
 
 // The ray to a point, and whether the world lets it through.
 struct Sight {
-  Vec3 direction;  // unit vector
-  double range;    // [m]
+  Vec3 from, direction;  // the latter a unit vector
+  double range;          // [m]
   bool is_free;
 };
 
@@ -23,7 +23,7 @@ Sight look_from(const Vec3& viewpoint, const Vec3& point, const RayScene& scene,
   const Vec3 way = point - viewpoint;
   const double range = way.norm();
   const Vec3 direction = range > 0 ? Vec3(way / range) : Vec3::UnitZ();
-  return {direction, range,
+  return {viewpoint, direction, range,
           range <= options.before || scene.is_free(viewpoint, point - options.before * direction)};
 }
 
@@ -42,6 +42,11 @@ Sight find_sight(const Vec3& point, const std::vector<Vec3>& viewpoints, const R
   return first;
 }
 
+Vec3 first_met(const Sight& sight, const RayScene& scene) {
+  const auto hit = scene.cast(sight.from, sight.direction);
+  return sight.from + (hit ? hit->distance : sight.range) * sight.direction;
+}
+
 }  // namespace
 
 SightLines follow_sight_lines(const std::vector<SeenPoint>& points,
@@ -57,17 +62,22 @@ SightLines follow_sight_lines(const std::vector<SeenPoint>& points,
       const Sight sight = find_sight(p.at, viewpoints, scene, options);
       if (p.normal && std::abs(p.normal->dot(sight.direction)) < std::cos(options.max_incidence))
         continue;
-      if (sight.range > options.min_range) ++lines.free_rays, lines.violations += !sight.is_free;
+      if (sight.range > options.min_range) {
+        ++lines.free_rays;
+        if (!sight.is_free) lines.violations.push_back({sight.from, first_met(sight, scene), p.at});
+      }
       if (!p.normal) continue;
       ++lines.ending_rays;
-      lines.leaks += scene.is_free(p.at - options.before * sight.direction,
-                                   p.at + options.behind * sight.direction);
+      if (scene.is_free(p.at - options.before * sight.direction,
+                        p.at + options.behind * sight.direction))
+        lines.leaks.push_back({sight.from, p.at});
     }
   });
   SightLines all;
   for (const SightLines& lines : parts) {
-    all.free_rays += lines.free_rays, all.violations += lines.violations;
-    all.ending_rays += lines.ending_rays, all.leaks += lines.leaks;
+    all.free_rays += lines.free_rays, all.ending_rays += lines.ending_rays;
+    all.violations.insert(all.violations.end(), lines.violations.begin(), lines.violations.end());
+    all.leaks.insert(all.leaks.end(), lines.leaks.begin(), lines.leaks.end());
   }
   return all;
 }

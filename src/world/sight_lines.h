@@ -22,10 +22,22 @@ struct SightOptions {
   double max_incidence = 1.309;  // [rad] off the normal (75 degrees); other rays are left out
 };
 
-// How many rays there were, and how many of them a world contradicts.
+// A ray to a point that met the world before it.
+struct Violation {
+  Vec3 from, met, point;
+};
+
+// A ray to a point of a surface that met nothing there.
+struct Leak {
+  Vec3 from, point;
+};
+
+// How many rays there were, and those of them that a world contradicts, in the order of the points.
 struct SightLines {
-  std::size_t free_rays = 0, violations = 0;  // from the scanner to before the point: met something
-  std::size_t ending_rays = 0, leaks = 0;  // from before to behind a surface's point: met nothing
+  std::size_t free_rays = 0;          // from the scanner to before the point
+  std::vector<Violation> violations;  // those that met something
+  std::size_t ending_rays = 0;        // from before to behind a surface's point
+  std::vector<Leak> leaks;            // those that met nothing
 };
 
 // Follows the ray to each point from the viewpoint that it was seen from: the nearest one from
