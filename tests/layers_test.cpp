@@ -40,9 +40,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"reconstruct", {"ground", "scan", "thesis", "rival", "surface", "world"}},
     {"exporters", {"ground", "world"}},
     {"sim_check", {"ground", "world", "exporters"}},
+    {"viewer", {"ground", "world", "exporters"}},
     {"apps",
      {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters",
-      "sim_check"}},
+      "sim_check", "viewer"}},
     {"bench",
      {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
 };
@@ -61,6 +62,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kLibraries =
     {"zlib.h", {"src/scan/file.cpp"}},
     {"liblzf/", {"src/scan/pcd.cpp"}},
     {"toml", {"apps/settings.cpp"}},
+    {"png.h", {"viewer/png.cpp"}},
     {"tinyxml2.h", {"exporters/xml.cpp"}},
     {"bt", {"exporters/bullet_shapes.h", "sim_check/bullet_file.cpp"}},
     {"BulletCollision/", {"exporters/bullet_shapes.cpp", "sim_check/bullet.cpp"}},
@@ -88,7 +90,7 @@ std::optional<Include> include_of(const fs::path& from, int line, const std::str
 
 std::vector<Include> all_includes() {
   std::vector<Include> includes;
-  for (const char* folder : {"src", "exporters", "sim_check", "apps", "bench"})
+  for (const char* folder : {"src", "exporters", "sim_check", "viewer", "apps", "bench"})
     for (const auto& entry : fs::recursive_directory_iterator(in_project(folder))) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
       std::ifstream file(entry.path());
