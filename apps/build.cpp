@@ -17,6 +17,9 @@
 #include "scan/read_scan.h"
 #include "scan/write_scan.h"
 #include "settings.h"
+#include "view.h"
+#include "viewer/replay_json.h"
+#include "viewer/report_page.h"
 #include "world/validate.h"
 #include "world/world_json.h"
 
@@ -41,6 +44,7 @@ struct BuildRequest {
   int threads = 0;
   std::uint64_t seed = 1;
   bool labels = false, json = false, show_options = false;
+  bool record = false, view = false;
   bool level = false, floor_at_zero = false;
   Console console;
 };
@@ -54,6 +58,7 @@ ReconstructOptions resolve_options(const BuildRequest& request) {
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
+  options.record = request.record;
   options.frame.level |= request.level, options.frame.floor_at_zero |= request.floor_at_zero;
   return options;
 }
@@ -114,12 +119,13 @@ std::string summary(const BuildRequest& request, const World& world, const Json&
 // Writes all files of the world into the folder.
 void write_files(const std::filesystem::path& folder, const BuildRequest& request,
                  const std::vector<ExportFormat>& formats, const PointCloud& cloud,
-                 const ReconstructResult& result) {
+                 const ReconstructResult& result, const std::string& replay) {
   write_world(folder / "world.json", result.world);
   const World prepared = formats.empty() ? World{} : prepare_export(result.world, {});
   for (const ExportFormat& format : formats)
     format.write(folder / ("world." + format.extension), prepared, {});
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
+  if (!replay.empty()) write_text(folder / "replay.json", replay);
 }
 
 Json whole_report(const BuildRequest& request, const ReconstructResult& result,
@@ -131,6 +137,16 @@ Json whole_report(const BuildRequest& request, const ReconstructResult& result,
   report["preset"] = request.preset;
   report["complete_seconds"] = seconds;
   return report;
+}
+
+void write_view(const std::filesystem::path& file, const BuildRequest& request,
+                const ReconstructResult& result, const PointCloud& cloud, const Json& report,
+                const std::string& replay) {
+  PageContent content{.title = folder_name(request.out), .world = result.world};
+  content.scan = scan_view(result.world, cloud);
+  content.report = report.dump();
+  content.replay = replay;
+  write_text(file, page_of(content));
 }
 
 // Says what was done: warnings and stages on stderr, the result on stdout.
@@ -190,13 +206,17 @@ void run(BuildRequest request) {
                      [&] { return keep_budget(result, limit); });
   const Fidelity fidelity = log.run("Checking fidelity", "points -> criteria", cloud,
                                     [&] { return fidelity_of(result.world, cloud); });
+  const std::string replay = result.replay ? replay_text(*result.replay) : "";
   log.run("Writing", "surfaces -> files", result.world.surfaces, [&] {
-    write_files(folder.path(), request, formats, cloud, result);
+    write_files(folder.path(), request, formats, cloud, result, replay);
     return formats.size() + 1 + request.labels;
   });
   Json report = whole_report(request, result, fidelity, cloud, seconds_since(start));
   if (budget) report["budget"] = json_of(*budget);
   write_json(folder.path() / "report.json", report);
+  write_text(folder.path() / "report.html",
+             report_page_of(result.world, folder_name(request.out), report.dump()));
+  if (request.view) write_view(folder.path() / "view.html", request, result, cloud, report, replay);
   folder.commit();
   tell(request, result, report);
 }
@@ -241,6 +261,10 @@ void add_build(CLI::App& app) {
                  "--level)");
   verb->add_flag("--labels", request->labels,
                  "Also write labels.ply: the surface of each input point");
+  verb->add_flag("--record", request->record,
+                 "Also write replay.json: how the method found its planes, for the page");
+  verb->add_flag("--view", request->view,
+                 "Also write view.html: a page that shows the world and the scan (see view)");
   verb->add_option("--export", request->exports, "Formats to write beside world.json, or none")
       ->type_name("LIST")
       ->delimiter(',')

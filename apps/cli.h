@@ -22,6 +22,7 @@ void add_info(CLI::App& app);
 void add_export(CLI::App& app);
 void add_scan(CLI::App& app);
 void add_check(CLI::App& app);
+void add_view(CLI::App& app);
 
 // Parses a command line, runs what it asks for, and tells errors; returns the exit code. Adds
 // --version.

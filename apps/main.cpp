@@ -22,5 +22,6 @@ int main(int argc, char** argv) {
   cli::add_export(app);
   cli::add_scan(app);
   cli::add_check(app);
+  cli::add_view(app);
   return cli::run_app(app, argc, argv);
 }

@@ -40,9 +40,9 @@ TEST_CASE("build writes its folder with world, report and exports") {
   CHECK(contains(outcome.out, "6 surfaces (1 floor, 1 ceiling, 4 wall, 0 other) and 12 triangles"));
   CHECK(outcome.err.empty());
   for (const char* name : {"world.json", "report.json", "world.obj", "world.mtl", "world.stl",
-                           "world.glb", "world.bullet", "labels.ply"})
+                           "world.glb", "world.bullet", "labels.ply", "report.html"})
     CHECK(fs::exists(folder / "world" / name));
-  CHECK(entries(folder / "world") == 8);
+  CHECK(entries(folder / "world") == 9);
   CHECK(validate(read_world(folder / "world")).empty());
   CHECK(entries(folder.path()) == 2);
 
@@ -66,7 +66,7 @@ TEST_CASE("build replaces a world of its own and no other folder") {
   const fs::path scan = room_scan(folder);
   CHECK(run({"build", scan, "-o", folder / "w"}).code == 0);
   CHECK(run({"build", scan, "-o", folder / "w", "--export", "none"}).code == 0);
-  CHECK(entries(folder / "w") == 2);
+  CHECK(entries(folder / "w") == 3);
   fs::create_directory(folder / "mine");
   write_file(folder / "mine/thesis.tex", "years of work");
   const Outcome outcome = run({"build", scan, "-o", folder / "mine"});
