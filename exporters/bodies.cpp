@@ -7,6 +7,7 @@
 #include <map>
 
 #include "parts.h"
+#include "turn.h"
 #include "world/solids.h"
 
 namespace scanworld {
@@ -22,7 +23,7 @@ struct Placed {
 Placed placed(const OrientedBox& box) { return {box.center, box.rotation, BoxShape{box.size}}; }
 
 Placed placed(const Cylinder& cylinder, const Vec3& up) {
-  return {cylinder.center, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up),
+  return {cylinder.center, turn_between(Vec3::UnitZ(), up),
           CylinderShape{cylinder.radius, cylinder.height}};
 }
 

@@ -9,6 +9,7 @@
 #include "drive.h"
 #include "random.h"
 #include "timing.h"
+#include "turn.h"
 
 namespace scanworld::sim {
 
@@ -105,8 +106,7 @@ Glide glide(const Place& place, const std::vector<Lane>& lanes, const EngineMake
       engine.make(place, {Pose{}}, {.kind = kind, .size = options.size, .friction = 0}, {});
   for (const Lane& lane : lanes) {
     const Vec3 along = (lane.to - lane.from).normalized();
-    const Pose start{lane.from + Vec3(0, 0, half),
-                     Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), along)};
+    const Pose start{lane.from + Vec3(0, 0, half), turn_between(Vec3::UnitX(), along)};
     const Vec3 rolling = kSpeed / half * Vec3::UnitZ().cross(along);
     simulation->put(0, start, kSpeed * along, kind == RobotKind::ball ? rolling : Vec3::Zero());
     const int steps = static_cast<int>((lane.to - lane.from).norm() / kSpeed * kRate);

@@ -3,6 +3,7 @@
 #include "world/floor_plan.h"
 
 #include "support/clutter.h"
+#include "turn.h"
 #include "world/assemble.h"
 #include "world/level.h"
 #include "world/ray_scene.h"
@@ -148,7 +149,7 @@ TEST_CASE("a tilted world has the plan of the upright one") {
   const FloorPlan upright = make_floor_plan(world);
   CHECK(upright.upright.coeffs() == Eigen::Quaterniond::Identity().coeffs());
   const Vec3 up = Vec3(0.2, -0.1, 1).normalized();
-  const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up);
+  const Eigen::Quaterniond tilt = turn_between(Vec3::UnitZ(), up);
   const World tilted = moved(world, tilt, Vec3::Zero());
   const FloorPlan plan = make_floor_plan(tilted);
   // Turned back, walls are on the lines between cells only nearly.

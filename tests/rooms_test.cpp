@@ -5,6 +5,7 @@
 #include <set>
 
 #include "support/scenes.h"
+#include "turn.h"
 #include "world/assemble.h"
 #include "world/level.h"
 #include "world/validate.h"
@@ -97,8 +98,7 @@ TEST_CASE("furniture does not part a room, nor does the order of surfaces matter
 
 TEST_CASE("a tilted world has the same rooms, with their centres where they are") {
   const World world = drawn("office");
-  const Eigen::Quaterniond tilt =
-      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3(0.1, 0.2, 1).normalized());
+  const Eigen::Quaterniond tilt = turn_between(Vec3::UnitZ(), Vec3(0.1, 0.2, 1).normalized());
   const Vec3 shift(3.3, -4.4, 5.5);
   const RoomMap upright = find_rooms(world), tilted = find_rooms(moved(world, tilt, shift));
   REQUIRE(tilted.rooms.size() == upright.rooms.size());

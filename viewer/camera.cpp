@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "error.h"
+#include "turn.h"
 #include "world/solids.h"
 
 namespace scanworld {
@@ -21,8 +22,7 @@ constexpr double kHalfField = 0.5;  // tangent of half the field of view: 53 deg
 // With `up` upright in the picture, or where one looks along it, with y.
 Camera looking(const Vec3& eye, const Vec3& ahead, const Vec3& up) {
   Vec3 right = ahead.cross(up);
-  if (right.norm() < 1e-6)
-    right = ahead.cross(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up) * Vec3::UnitY());
+  if (right.norm() < 1e-6) right = ahead.cross(turn_between(Vec3::UnitZ(), up) * Vec3::UnitY());
   right.normalize();
   return {eye, right, right.cross(ahead), ahead};
 }
@@ -54,8 +54,7 @@ Camera camera_from_top(const World& world, double aspect) {
 Camera camera_from_corner(const World& world, double aspect) {
   const Vec3 level(std::cos(kAzimuth), std::sin(kAzimuth), 0);
   const Vec3 from = std::cos(kElevation) * level + std::sin(kElevation) * Vec3::UnitZ();
-  const Vec3 ahead =
-      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), world.frame.up) * Vec3(-from);
+  const Vec3 ahead = turn_between(Vec3::UnitZ(), world.frame.up) * Vec3(-from);
   return orthographic(world, ahead, aspect);
 }
 

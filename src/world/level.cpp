@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "turn.h"
+
 namespace scanworld {
 
 namespace {
@@ -45,7 +47,7 @@ double tilt_of(const Frame& frame) {
 }
 
 Eigen::Quaterniond upright_turn(const Frame& frame) {
-  return Eigen::Quaterniond::FromTwoVectors(frame.up, Vec3::UnitZ());
+  return turn_between(frame.up, Vec3::UnitZ());
 }
 
 const Surface* main_floor(const World& world) {

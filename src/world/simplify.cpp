@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solids.h"
+#include "turn.h"
 
 namespace scanworld {
 
@@ -13,7 +14,7 @@ namespace {
 
 // The box with the least footprint of those turned by whole degrees about the upright axis.
 OrientedBox upright_box(const std::vector<Vec3>& points, const Vec3& up) {
-  const auto stand = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up);
+  const auto stand = turn_between(Vec3::UnitZ(), up);
   OrientedBox best;
   double least = -1;
   for (int degree = 0; degree < 90; ++degree) {
@@ -30,7 +31,7 @@ OrientedBox upright_box(const std::vector<Vec3>& points, const Vec3& up) {
 
 // About the middle of the points' box.
 Cylinder upright_cylinder(const std::vector<Vec3>& points, const Vec3& up) {
-  const auto stand = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up);
+  const auto stand = turn_between(Vec3::UnitZ(), up);
   Box3 box;
   for (const Vec3& p : points) box.extend(stand.conjugate() * p);
   Cylinder cylinder{stand * box.center(), 0, box.sizes().z()};
