@@ -11,7 +11,7 @@ const folder = temporary_folder();
 const world = office();
 let page;
 
-/** The office with a wall that is not there, without one that is, and with a collider: every layer has something to show. */
+/** The office with a wall that is not there, without one that is, a kerb around it, and with a collider: every layer has something to show. */
 function flawed_office() {
   const flawed = office();
   for (const [x, turn] of [[3, -1], [3.1, 1]]) {
@@ -20,6 +20,8 @@ function flawed_office() {
     const begin = flawed.vertices.length - 4;
     flawed.surfaces.push({ id: 9000 + turn, kind: 'other', source: 'measured', plane: { normal: [turn, 0, 0], offset: -turn * x }, outer: [0, 1, 2, 3].map((i) => begin + i), holes: [], support: { points: 10, rms: 0.001, coverage: 0.5 } });
   }
+  const kerb = (r) => [[-r, -r], [r, -r], [r, r], [-r, r]].map(([x, y]) => flawed.vertices.push([x, y, -0.5]) - 1);
+  flawed.surfaces.push({ id: 9002, kind: 'floor', source: 'measured', plane: { normal: [0, 0, 1], offset: 0.5 }, outer: kerb(30), holes: [kerb(29.9).reverse()], support: { points: 10, rms: 0.001, coverage: 0.5 } });
   const kept = new Set(flawed.openings.map((o) => o.surface));
   const gone = flawed.surfaces.find((s) => s.kind === 'wall' && s.outer.length === 4 && !kept.has(s.id) && area(flawed, s) > 5);
   flawed.surfaces = flawed.surfaces.filter((s) => s !== gone);
@@ -269,6 +271,13 @@ test('walking goes ahead at the height of a robot and ends with Esc', async () =
   await page.locator('#canvas').focus();
   await page.keyboard.press('Escape');
   assert.equal((await state(page)).view, 'orbit');
+});
+
+test('one walks on the floor with the largest area, not on a kerb around it', async () => {
+  const flawed = await open(join(folder, 'flawed.html'));
+  await flawed.keyboard.press('g');
+  assert.equal((await state(flawed)).camera[2], 0.6);
+  await close(flawed);
 });
 
 test('a link to a walk and to a view from above bring these back', async () => {

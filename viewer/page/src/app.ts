@@ -20,9 +20,11 @@ import { in_world, type Section, section_plane } from './section';
 import { Stage } from './stage';
 import { length_text, Tape } from './tape';
 import { effective_theme, paper, set_theme, type Theme } from './theme';
+import { area_of } from './triangulate';
 import { Walk } from './walk';
 
 const SNAP = 8; // [px] the tape snaps to a vertex of a surface so near
+const STOREY = 1; // [m] floors nearer in height are of one storey
 const POINT_REACH = 6; // [px] and to a point of the scan
 
 export class App {
@@ -222,21 +224,21 @@ export class App {
 
   private start_walk(): void {
     if (this.cameras.view === 'walk' || !this.page) return;
-    const room = this.page.world.rooms.filter((r) => r.center).sort((a, b) => (b.area ?? 0) - (a.area ?? 0))[0];
-    const at = room ? new Vector3(...room.center!).applyQuaternion(this.turn) : this.cameras.target.clone();
+    const rooms = this.page.world.rooms.filter((r) => r.center).sort((a, b) => (b.area ?? 0) - (a.area ?? 0));
+    const centers = rooms.map((r) => new Vector3(...r.center!).applyQuaternion(this.turn));
+    const at = centers.find((c) => Math.abs(c.z - this.walk.floor) < STOREY) ?? this.cameras.target.clone();
     this.walk.start(at, 0);
   }
 
-  /** The height of the floor with the largest box, in the scene. */
+  /** The height of the largest floor, in the scene. */
   private main_floor(): number {
     const world = this.page!.world;
     let best = { area: 0, height: this.content!.box().min.z };
     for (const s of world.surfaces) {
-      if (s.kind !== 'floor') continue;
-      const points = s.outer.map((v) => new Vector3(...world.vertices[v]!).applyQuaternion(this.turn));
-      const span = (k: 'x' | 'y') => Math.max(...points.map((p) => p[k])) - Math.min(...points.map((p) => p[k]));
-      const area = span('x') * span('y');
-      if (area > best.area) best = { area, height: points.reduce((sum, p) => sum + p.z, 0) / points.length };
+      const area = area_of(s, world);
+      if (s.kind !== 'floor' || area <= best.area) continue;
+      const heights = s.outer.map((v) => new Vector3(...world.vertices[v]!).applyQuaternion(this.turn).z);
+      best = { area, height: heights.reduce((sum, z) => sum + z, 0) / heights.length };
     }
     return best.height;
   }

@@ -7,17 +7,12 @@ import type { Page } from './data';
 import { by_id, fill_facts, grouped, millimetres, percent } from './dom';
 import type { Thing } from './layers';
 import { id_of } from './link';
-import { loop_normal } from './triangulate';
+import { area_of } from './triangulate';
 import type { Solid } from './world';
 
 type Facts = [string, string][];
 const number = (v: number, digits = 3) => v.toFixed(digits).replace('-', '−');
 const vector = (v: number[]) => v.map((x) => number(x)).join(', ');
-
-function area(page: Page, surface: Page['world']['surfaces'][number]): number {
-  const size = (loop: number[]) => Math.hypot(...loop_normal(loop.map((v) => page.world.vertices[v]!)));
-  return surface.holes.reduce((sum, hole) => sum - size(hole), size(surface.outer));
-}
 
 function provenance(page: Page): Facts {
   const { program, inputs } = page.world.provenance;
@@ -32,7 +27,7 @@ function surface_facts(page: Page, index: number): Facts {
   const facts: Facts = [
     ['Kind', s.kind],
     ['Source', s.source],
-    ['Area', `${area(page, s).toFixed(2)} m²`],
+    ['Area', `${area_of(s, page.world).toFixed(2)} m²`],
   ];
   if (s.support) facts.push(['Points', grouped(s.support.points)], ['RMS distance', millimetres(s.support.rms)], ['Coverage', percent(s.support.coverage)]);
   facts.push(['Thickness', s.thickness === null ? 'unknown' : millimetres(s.thickness)], ['Normal', vector(s.normal)], ['Offset', `${number(s.offset)} m`]);

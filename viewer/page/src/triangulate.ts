@@ -5,7 +5,7 @@
 import { ShapeUtils, Vector2 } from 'three';
 import type { Vec3 } from './check';
 import type { Triangles } from './data';
-import type { World } from './world';
+import type { Surface, World } from './world';
 
 const cross = (a: Vec3, b: Vec3): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -19,6 +19,12 @@ export function loop_normal(loop: Vec3[]): Vec3 {
     for (let k = 0; k < 3; ++k) sum[k]! += c[k]! / 2;
   });
   return sum;
+}
+
+/** [m2] without its holes. */
+export function area_of(surface: Surface, world: World): number {
+  const size = (loop: number[]) => Math.hypot(...loop_normal(loop.map((v) => world.vertices[v]!)));
+  return surface.holes.reduce((sum, hole) => sum - size(hole), size(surface.outer));
 }
 
 /** Triangles of a polygon as indices into [...outer, ...holes], facing along the normal. */
