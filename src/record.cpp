@@ -3,18 +3,52 @@
 #include "record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
 #include <tuple>
 
 #include "mix.h"
+#include "surface/raster_outlines.h"
 #include "thesis/hull.h"
 
 namespace scanworld {
 
-void Recorder::start(std::string method, std::vector<Vec3> points, std::size_t shown) {
+namespace {
+
+using surface::Raster;
+
+std::vector<Vec2> to_plane(const PlaneFrame& frame, const std::vector<Vec3>& points) {
+  std::vector<Vec2> flat;
+  for (const Vec3& p : points) flat.push_back(frame.to_plane(p));
+  return flat;
+}
+
+// The cells with points, and gaps of one or two of them between; larger cells where they would be
+// too many.
+Raster cells_of(const std::vector<Vec2>& points, double cell) {
+  constexpr double kMost = 1e6;
+  constexpr double kMargin = 2;  // cells, so that gaps can be closed
+  Eigen::AlignedBox2d box;
+  for (const Vec2& p : points) box.extend(p);
+  cell = std::max(cell, std::sqrt(box.sizes().x() * box.sizes().y() / kMost));
+  cell = std::max(cell, box.sizes().maxCoeff() / kMost);
+  Raster raster{
+      .low = (box.min() / cell).array().floor().matrix() * cell - Vec2::Constant(kMargin * cell),
+      .cell = cell};
+  raster.width = static_cast<int>((box.max().x() - raster.low.x()) / cell + 1 + kMargin);
+  raster.height = static_cast<int>((box.max().y() - raster.low.y()) / cell + 1 + kMargin);
+  raster.bits.assign(raster.index(0, raster.height), 0);
+  for (const Vec2& p : points) surface::set(raster, p);
+  return surface::close(raster, 1);
+}
+
+}  // namespace
+
+void Recorder::start(std::string method, std::vector<Vec3> points, double cell, std::size_t shown) {
   if (!is_on_) return;
+  cell_ = cell;
   points_ = std::move(points);
   now_.assign(points_.size(), -1);
   shown_.resize(points_.size());
@@ -57,8 +91,8 @@ std::vector<int> Recorder::find_ids(const std::vector<std::int32_t>& label, std:
   return ids;
 }
 
-std::vector<ReplayLoop> Recorder::borders(const std::vector<std::int32_t>& label,
-                                          const std::vector<Plane>& planes) const {
+std::vector<ReplayLoop> Recorder::drawn(const std::vector<std::int32_t>& label,
+                                        const std::vector<Plane>& planes) const {
   std::vector<std::vector<Vec3>> members(planes.size());
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (label[i] < 0) continue;
@@ -67,8 +101,18 @@ std::vector<ReplayLoop> Recorder::borders(const std::vector<std::int32_t>& label
   }
   std::vector<ReplayLoop> loops;
   for (std::size_t l = 0; l < planes.size(); ++l) {
-    std::vector<Vec3> border = thesis::convex_hull(members[l], planes[l].normal);
-    if (border.size() >= 3) loops.push_back({ids_[l], false, std::move(border)});
+    if (members[l].size() < 3) continue;
+    if (cell_ > 0) {
+      const PlaneFrame frame = frame_of(planes[l]);
+      for (const surface::Ring& ring :
+           surface::outline_rings(cells_of(to_plane(frame, members[l]), cell_))) {
+        loops.push_back({ids_[l], ring.is_hole, {}});
+        for (const Vec2& p : ring.points) loops.back().vertices.push_back(frame.to_space(p));
+      }
+    } else if (auto border = thesis::convex_hull(members[l], planes[l].normal);
+               border.size() >= 3) {
+      loops.push_back({ids_[l], false, std::move(border)});
+    }
   }
   return loops;
 }
@@ -92,7 +136,7 @@ void Recorder::add(std::string stage, std::string text, const std::vector<std::i
       step.points.push_back(static_cast<std::uint32_t>(k));
       step.cluster.push_back(next[i]);
     }
-  step.loops = borders(label, planes);
+  step.loops = drawn(label, planes);
   now_ = std::move(next);
   replay_.steps.push_back(std::move(step));
 }
@@ -148,7 +192,7 @@ void record_seeds(Recorder& recorder, const rival::Grid& grid,
   if (!recorder.is_on()) return;
   std::vector<Vec3> points;
   for (const rival::Site& site : grid.sites) points.push_back(site.position());
-  recorder.start("rival", std::move(points));
+  recorder.start("rival", std::move(points), 2 * grid.voxel);
   std::vector<std::int32_t> label;
   for (const rival::LocalPlane& plane : local) label.push_back(plane.planar() ? 0 : -1);
   recorder.mark("Seeds", "clusters may grow from where it is flat", label);

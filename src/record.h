@@ -23,12 +23,14 @@ class Recorder {
   explicit Recorder(bool is_on) : is_on_(is_on) {}
   bool is_on() const { return is_on_; }
 
-  // What a method clusters, of which about so many are shown, evenly chosen.
-  void start(std::string method, std::vector<Vec3> points, std::size_t shown = 20000);
+  // What a method clusters, of which about so many are shown, evenly chosen. Clusters are drawn as
+  // the outlines of their points in cells of this size [m], or where it is 0, as the method of 2012
+  // does, by their convex border.
+  void start(std::string method, std::vector<Vec3> points, double cell = 0,
+             std::size_t shown = 20000);
 
   // Adds a step: the cluster of each point, -1 = none, and the planes of the clusters, each of
-  // which is drawn as the convex border of its points. A cluster is the one of the step before that
-  // it has most points of.
+  // which is drawn. A cluster is the one of the step before that it has most points of.
   void add(std::string stage, std::string text, const std::vector<std::int32_t>& label,
            const std::vector<Plane>& planes);
 
@@ -43,10 +45,11 @@ class Recorder {
 
  private:
   std::vector<int> find_ids(const std::vector<std::int32_t>& label, std::size_t clusters);
-  std::vector<ReplayLoop> borders(const std::vector<std::int32_t>& label,
-                                  const std::vector<Plane>& planes) const;
+  std::vector<ReplayLoop> drawn(const std::vector<std::int32_t>& label,
+                                const std::vector<Plane>& planes) const;
 
   const bool is_on_;
+  double cell_ = 0;
   std::vector<Vec3> points_;
   std::vector<std::uint32_t> shown_;  // indices into points_
   std::vector<std::int32_t> now_;     // the cluster of each point, by its number in the replay

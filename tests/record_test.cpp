@@ -83,11 +83,40 @@ TEST_CASE("each cluster is drawn as the convex border of its points, in the worl
   CHECK((replay.points[0] - Vec3(0, 0, 10)).norm() < 1e-12);
 }
 
+TEST_CASE("with cells a cluster is drawn as it is: a wall with its door and its window") {
+  const Plane wall{Vec3::UnitY(), -2};
+  std::vector<Vec3> points;
+  for (double x = 0; x < 6; x += 0.05)
+    for (double z = 0; z < 3; z += 0.05)
+      if (!(x > 1 && x < 2 && z < 2) && !(x > 3 && x < 5 && z > 1 && z < 2))
+        points.push_back({x, 2, z});
+  Recorder recorder(true);
+  recorder.start("rival", points, 0.1);
+  recorder.add("a", "", std::vector<std::int32_t>(points.size(), 0), {wall});
+  const Replay replay = *std::move(recorder).finish({}, Vec3::Zero());
+  const auto& loops = replay.steps[0].loops;
+  REQUIRE(loops.size() == 2);
+  CHECK_FALSE(loops[0].is_hole);
+  CHECK(loops[1].is_hole);
+  const auto area = [](const ReplayLoop& loop) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < loop.vertices.size(); ++k)
+      sum += loop.vertices[k].cross(loop.vertices[(k + 1) % loop.vertices.size()]) / 2;
+    return sum.norm();
+  };
+  CHECK(std::abs(area(loops[0]) - (18 - 2)) < 0.8);
+  CHECK(std::abs(area(loops[1]) - 2) < 0.4);
+  for (const ReplayLoop& loop : loops) {
+    CHECK(loop.vertices.size() <= 14);
+    for (const Vec3& v : loop.vertices) CHECK(std::abs(wall.normal.dot(v) + wall.offset) < 1e-9);
+  }
+}
+
 TEST_CASE("a replay shows an even part of many points and counts the changes of all") {
   std::vector<Vec3> points;
   for (int i = 0; i < 10000; ++i) points.push_back({i % 100 * 1.0, i / 100 * 1.0, 0});
   Recorder recorder(true);
-  recorder.start("rival", points, 1000);
+  recorder.start("rival", points, 0, 1000);
   recorder.add("a", "", std::vector<std::int32_t>(10000, 0), {Plane{}});
   const Replay replay = *std::move(recorder).finish({}, Vec3::Zero());
   CHECK(replay.points.size() == 1000);

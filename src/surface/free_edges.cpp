@@ -3,89 +3,17 @@
 #include "free_edges.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 
 #include "../polygon.h"
+#include "raster_outlines.h"
 
 namespace scanworld::surface {
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-// The loops around the set cells, which lie to their left; each by the middles of the cells' edges.
-class Outlines {
- public:
-  explicit Outlines(const Raster& raster)
-      : raster_(raster),
-        out_(static_cast<std::size_t>(raster.width + 1) *
-             static_cast<std::size_t>(raster.height + 1)) {}
-
-  std::vector<std::vector<Vec2>> trace() {
-    for (int y = 0; y < raster_.height; ++y)
-      for (int x = 0; x < raster_.width; ++x) {
-        if (!raster_.is_set(x, y)) continue;
-        if (!raster_.is_set(x, y - 1)) out(x, y) |= 1;
-        if (!raster_.is_set(x + 1, y)) out(x + 1, y) |= 2;
-        if (!raster_.is_set(x, y + 1)) out(x + 1, y + 1) |= 4;
-        if (!raster_.is_set(x - 1, y)) out(x, y + 1) |= 8;
-      }
-    std::vector<std::vector<Vec2>> loops;
-    for (int y = 0; y <= raster_.height; ++y)
-      for (int x = 0; x <= raster_.width; ++x)
-        while (out(x, y) != 0) loops.push_back(trace_from(x, y));
-    return loops;
-  }
-
- private:
-  // Which ways edges leave a corner of the cells: bit k for (k quarter turns from +x).
-  std::uint8_t& out(int x, int y) {
-    return out_[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.width + 1) +
-                static_cast<std::size_t>(x)];
-  }
-
-  std::vector<Vec2> trace_from(int x, int y) {
-    constexpr int kX[] = {1, 0, -1, 0}, kY[] = {0, 1, 0, -1};
-    std::vector<Vec2> middles;
-    int way = std::countr_zero(out(x, y));
-    while (out(x, y) != 0) {
-      // Left first: cells that touch at a corner alone are apart.
-      for (int turn : {1, 0, 3})
-        if (out(x, y) >> ((way + turn) & 3) & 1) {
-          way = (way + turn) & 3;
-          break;
-        }
-      if (!(out(x, y) >> way & 1)) way = std::countr_zero(out(x, y));
-      out(x, y) &= static_cast<std::uint8_t>(~(1 << way));
-      middles.push_back(raster_.low + raster_.cell * Vec2(x + 0.5 * kX[way], y + 0.5 * kY[way]));
-      x += kX[way], y += kY[way];
-    }
-    return middles;
-  }
-
-  const Raster& raster_;
-  std::vector<std::uint8_t> out_;
-};
-
-// Douglas and Peucker 1973: appends the last point of each straight piece.
-void simplify(const std::vector<Vec2>& points, std::size_t first, std::size_t last,
-              double tolerance, std::vector<std::size_t>& ends) {
-  const Vec2 chord = points[last] - points[first];
-  const double length = chord.norm();
-  double farthest = tolerance;
-  std::size_t at = last;
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const Vec2 to = points[i] - points[first];
-    const double off =
-        length > 0 ? std::abs(chord.x() * to.y() - chord.y() * to.x()) / length : to.norm();
-    if (off > farthest) farthest = off, at = i;
-  }
-  if (at == last) return ends.push_back(last);
-  simplify(points, first, at, tolerance, ends);
-  simplify(points, at, last, tolerance, ends);
-}
 
 struct EdgePiece {
   Vec2 from, to, outward;  // unit vector
@@ -108,7 +36,7 @@ class EdgeFinder {
   }
 
   std::vector<EdgePiece> find() {
-    for (const std::vector<Vec2>& loop : Outlines(patch_.covered).trace()) add_loop(loop);
+    for (const std::vector<Vec2>& loop : trace_raster(patch_.covered)) add_loop(loop);
     return std::move(pieces_);
   }
 
@@ -136,16 +64,7 @@ class EdgeFinder {
     for (std::size_t i = 0; i < n; ++i) explained[i] = is_explained(loop[i]);
     const auto first = std::find(explained.begin(), explained.end(), 1) - explained.begin();
     std::vector<Vec2> run;
-    if (static_cast<std::size_t>(first) == n) {  // from its lowest corner, and back to it
-      const auto start = std::min_element(loop.begin(), loop.end(),
-                                          [](const Vec2& a, const Vec2& b) {
-                                            return a.x() + a.y() < b.x() + b.y();
-                                          }) -
-                         loop.begin();
-      for (std::size_t k = 0; k <= n; ++k)
-        run.push_back(loop[(static_cast<std::size_t>(start) + k) % n]);
-      return add_run(run);
-    }
+    if (static_cast<std::size_t>(first) == n) return add_run(around(loop));
     for (std::size_t k = 0; k <= n; ++k) {
       const std::size_t i = (static_cast<std::size_t>(first) + k) % n;
       if (!explained[i]) {
@@ -158,8 +77,8 @@ class EdgeFinder {
   }
 
   void add_run(const std::vector<Vec2>& run) {
-    std::vector<std::size_t> ends = {0};
-    simplify(run, 0, run.size() - 1, options_.tolerance * patch_.covered.cell, ends);
+    const std::vector<std::size_t> ends =
+        straight_ends(run, options_.tolerance * patch_.covered.cell);
     std::vector<EdgePiece> pieces;
     for (std::size_t k = 1; k < ends.size(); ++k)
       pieces.push_back(piece_of({run.begin() + static_cast<std::ptrdiff_t>(ends[k - 1]),
