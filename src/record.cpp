@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "mix.h"
+#include "surface/patch.h"
 #include "surface/raster_outlines.h"
 #include "thesis/hull.h"
 
@@ -17,31 +18,17 @@ namespace scanworld {
 
 namespace {
 
-using surface::Raster;
-
-std::vector<Vec2> to_plane(const PlaneFrame& frame, const std::vector<Vec3>& points) {
-  std::vector<Vec2> flat;
-  for (const Vec3& p : points) flat.push_back(frame.to_plane(p));
-  return flat;
-}
-
-// The cells with points, and gaps of one or two of them between; larger cells where they would be
-// too many.
-Raster cells_of(const std::vector<Vec2>& points, double cell) {
+// The outlines of the cells with points, gaps of one or two of them closed; of larger cells where
+// there would be too many.
+std::vector<surface::Ring> outlines_of(const std::vector<Vec2>& points, double cell) {
   constexpr double kMost = 1e6;
-  constexpr double kMargin = 2;  // cells, so that gaps can be closed
   Eigen::AlignedBox2d box;
   for (const Vec2& p : points) box.extend(p);
-  cell = std::max(cell, std::sqrt(box.sizes().x() * box.sizes().y() / kMost));
-  cell = std::max(cell, box.sizes().maxCoeff() / kMost);
-  Raster raster{
-      .low = (box.min() / cell).array().floor().matrix() * cell - Vec2::Constant(kMargin * cell),
-      .cell = cell};
-  raster.width = static_cast<int>((box.max().x() - raster.low.x()) / cell + 1 + kMargin);
-  raster.height = static_cast<int>((box.max().y() - raster.low.y()) / cell + 1 + kMargin);
-  raster.bits.assign(raster.index(0, raster.height), 0);
+  const Vec2 size = box.sizes();
+  cell = std::max({cell, std::sqrt(size.x() * size.y() / kMost), size.maxCoeff() / kMost});
+  surface::Raster raster = surface::raster_around(box, 2 * cell, cell);
   for (const Vec2& p : points) surface::set(raster, p);
-  return surface::close(raster, 1);
+  return surface::outline_rings(surface::close(raster, 1));
 }
 
 }  // namespace
@@ -93,25 +80,23 @@ std::vector<int> Recorder::find_ids(const std::vector<std::int32_t>& label, std:
 
 std::vector<ReplayLoop> Recorder::drawn(const std::vector<std::int32_t>& label,
                                         const std::vector<Plane>& planes) const {
-  std::vector<std::vector<Vec3>> members(planes.size());
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    if (label[i] < 0) continue;
-    const auto l = static_cast<std::size_t>(label[i]);
-    members[l].push_back(planes[l].project(points_[i]));
-  }
+  const surface::Members members = surface::group_points(label, planes.size());
   std::vector<ReplayLoop> loops;
   for (std::size_t l = 0; l < planes.size(); ++l) {
-    if (members[l].size() < 3) continue;
+    if (members.of(l).size() < 3) continue;
     if (cell_ > 0) {
       const PlaneFrame frame = frame_of(planes[l]);
-      for (const surface::Ring& ring :
-           surface::outline_rings(cells_of(to_plane(frame, members[l]), cell_))) {
+      std::vector<Vec2> flat;
+      for (std::uint32_t i : members.of(l)) flat.push_back(frame.to_plane(points_[i]));
+      for (const surface::Ring& ring : outlines_of(flat, cell_)) {
         loops.push_back({ids_[l], ring.is_hole, {}});
         for (const Vec2& p : ring.points) loops.back().vertices.push_back(frame.to_space(p));
       }
-    } else if (auto border = thesis::convex_hull(members[l], planes[l].normal);
-               border.size() >= 3) {
-      loops.push_back({ids_[l], false, std::move(border)});
+    } else {
+      std::vector<Vec3> flat;
+      for (std::uint32_t i : members.of(l)) flat.push_back(planes[l].project(points_[i]));
+      std::vector<Vec3> border = thesis::convex_hull(flat, planes[l].normal);
+      if (border.size() >= 3) loops.push_back({ids_[l], false, std::move(border)});
     }
   }
   return loops;

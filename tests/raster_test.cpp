@@ -19,6 +19,21 @@ Raster random_raster(int width, int height, int one_of, std::uint64_t seed) {
 
 }  // namespace
 
+TEST_CASE("a raster around a box holds it and its margin, at whole cells whatever the box") {
+  Random random(8);
+  for (int i = 0; i < 50; ++i) {
+    const Vec2 low(random.uniform(-5, 5), random.uniform(-5, 5)),
+        size(random.uniform(0, 3), random.uniform(0, 3));
+    const Raster raster = raster_around({low, low + size}, 0.25, 0.1);
+    CHECK((raster.low.array() <= low.array() - 0.25 + 1e-9).all());
+    CHECK((raster.high().array() >= (low + size).array() + 0.25 - 1e-9).all());
+    CHECK((raster.high() - raster.low - size).maxCoeff() < 0.7 + 1e-9);
+    CHECK(raster.bits.size() == static_cast<std::size_t>(raster.width * raster.height));
+    const Vec2 cells = raster.low / raster.cell;
+    CHECK((cells.array() - cells.array().round()).abs().maxCoeff() < 1e-9);
+  }
+}
+
 TEST_CASE("growing sets the cells near one that is set and no others") {
   for (int reach : {0, 1, 3}) {
     const Raster raster = random_raster(23, 17, 40, 3), grown = grow(raster, reach);

@@ -73,16 +73,8 @@ class PatchMaker {
       extent.extend(patch.frame.to_plane(p));
     }
     Raster& hit = patch.hit;
-    hit.cell = cell_;
-    // At whole cells, so that the raster does not hang on a single point.
-    const Vec2 low = ((extent.min().array() - options_.margin) / cell_).floor(),
-               high = ((extent.max().array() + options_.margin) / cell_).ceil();
-    hit.low = cell_ * low;
-    hit.width = static_cast<int>(high.x() - low.x());
-    hit.height = static_cast<int>(high.y() - low.y());
-    const std::size_t count =
-        static_cast<std::size_t>(hit.width) * static_cast<std::size_t>(hit.height);
-    hit.bits.assign(count, 0);
+    hit = raster_around(extent, options_.margin, cell_);
+    const std::size_t count = hit.bits.size();
     count_.assign(count, 0);
     // In whole parts of a cell, as the points come in any order.
     std::vector<std::array<std::uint32_t, 2>> sum(count);

@@ -37,6 +37,17 @@ void spread(Raster& raster, int reach, std::uint8_t value) {
 
 }  // namespace
 
+Raster raster_around(const Eigen::AlignedBox2d& box, double margin, double cell) {
+  const Vec2 low = ((box.min().array() - margin) / cell).floor(),
+             high = ((box.max().array() + margin) / cell).ceil();
+  Raster raster{.low = cell * low,
+                .cell = cell,
+                .width = static_cast<int>(high.x() - low.x()),
+                .height = static_cast<int>(high.y() - low.y())};
+  raster.bits.assign(raster.index(0, raster.height), 0);
+  return raster;
+}
+
 void set(Raster& raster, const Vec2& p) {
   if (const auto at = raster.find(p)) raster.bits[*at] = 1;
 }

@@ -43,6 +43,10 @@ inline Raster empty_like(Raster raster) {
   return raster;
 }
 
+// Cells that hold a box and a margin [m] around it, none set. At whole cells, so that they do not
+// hang on a single point.
+Raster raster_around(const Eigen::AlignedBox2d& box, double margin, double cell);
+
 // Sets the cell around a point, if there is one.
 void set(Raster& raster, const Vec2& p);
 
