@@ -12,6 +12,7 @@
 #include "exporters/export.h"
 #include "fidelity.h"
 #include "files.h"
+#include "output_folder.h"
 #include "parallel.h"
 #include "report_json.h"
 #include "scan/read_scan.h"
@@ -174,7 +175,9 @@ void run(BuildRequest request) {
   const double limit = request.budget.empty() ? 0 : seconds_from(request.budget);
   const std::vector<Vec3> poses =
       request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
-  OutputFolder folder(request.out, "world.json");
+  std::vector<std::filesystem::path> inputs = request.scans;
+  inputs.insert(inputs.end(), {request.config, request.poses});
+  OutputFolder folder(request.out, "world.json", inputs);
   const ThreadLimit threads(request.threads);
   const Progress progress = request.console.make_progress();
 
@@ -217,8 +220,9 @@ void run(BuildRequest request) {
   write_text(folder.path() / "report.html",
              report_page_of(result.world, folder_name(request.out), report.dump()));
   if (request.view) write_view(folder.path() / "view.html", request, result, cloud, report, replay);
-  folder.commit();
+  const std::vector<std::string> kept = folder.commit();
   tell(request, result, report);
+  for (const std::string& file : kept) request.console.warn(file);
 }
 
 }  // namespace

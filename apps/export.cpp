@@ -9,6 +9,8 @@
 #include "cli.h"
 #include "error.h"
 #include "fidelity.h"
+#include "files.h"
+#include "output_folder.h"
 #include "scan/read_scan.h"
 #include "world/level.h"
 #include "world/world_json.h"
@@ -47,18 +49,27 @@ void run(ExportRequest request) {
     throw Error(Cause::usage, "--band: LOW should be 0 or more, and less than HIGH");
   if (request.all && !request.format.empty())
     throw Error(Cause::usage, "--all writes every format; leave --format out");
-  if (!request.all) export_format(request.out, request.format);  // before the world is read
+  // What is wrong with the output is told before the world is read.
+  const std::vector<std::filesystem::path> inputs = {world_file(request.world), request.poses};
+  std::optional<OutputFolder> folder;
+  if (request.all) {
+    folder.emplace(request.out, kFormatsMark, inputs);
+  } else {
+    export_format(request.out, request.format);
+    check_output(request.out, inputs);
+  }
   if (std::filesystem::is_regular_file(request.world) && kind_of(request.world) == FileKind::scan)
     return run_on_scan(request);
   if (!request.poses.empty())
     throw Error(Cause::usage, request.poses.string() + ": --poses goes with a scan, not a world");
-  const World world = read_world(request.world);
+  const World world = read_valid_world(request.world);
   if (const double tilt = tilt_of(world.frame) * 180 / M_PI; tilt > 0.5 && !options.level)
     request.console.warn(
         fmt::format("the world is tilted by {:.1f} degrees; --level makes it upright", tilt));
   if (!request.all) return export_world(world, request.out, options, request.format);
-  for (const LeftOut& format : export_all(world, request.out, options))
+  for (const LeftOut& format : write_formats(folder->path(), world, options))
     request.console.warn("left out " + format.format + ": " + format.why);
+  for (const std::string& file : folder->commit()) request.console.warn(file);
 }
 
 std::string footer() {

@@ -67,7 +67,7 @@ Json mesh_info(const std::filesystem::path& file) {
 }
 
 Json world_info(const std::filesystem::path& file) {
-  const World world = read_world(file);
+  const World world = read_valid_world(file);
   double total = 0;
   for (const Surface& s : world.surfaces) total += area(world, s);
   Json inputs = Json::array();

@@ -40,9 +40,21 @@ void write_poses(const std::filesystem::path& path, const PointCloud& cloud) {
   file.commit();
 }
 
+// Before anything is read, that nothing which is there comes to harm.
+void check_outputs(const ScanRequest& request) {
+  const std::vector<std::filesystem::path> inputs = {world_file(request.world), request.poses};
+  check_output(request.out, inputs);
+  if (request.labels) {
+    check_output(labels_path(request.out), inputs);
+    check_replaces_own(labels_path(request.out), "property int plane_id");
+  }
+  if (!request.save_poses.empty()) check_output(request.save_poses, inputs);
+}
+
 void run(ScanRequest request) {
+  check_outputs(request);
   const ThreadLimit threads(request.threads);
-  const World world = read_world(request.world);
+  const World world = read_valid_world(request.world);
   request.options.resolution = request.resolution_degrees * kDegree;
   request.options.lowest = request.lowest_degrees * kDegree;
   if (!request.poses.empty())

@@ -32,14 +32,15 @@ struct TessellateRequest {
   sim::TessellateOptions options;
 };
 
-void check_ply(const std::filesystem::path& out) {
+void check_ply(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs) {
   if (lower_extension(out) != ".ply")
     throw Error(Cause::usage, out.string() + ": meshes are written as .ply");
+  check_output(out, inputs);
 }
 
 void run(const BaselineRequest& request) {
   const sim::Baseline& baseline = sim::baseline_named(request.method);
-  check_ply(request.out);
+  check_ply(request.out, request.scans);
   const Progress progress = request.console.make_progress();
   const PointCloud cloud = read_scan(request.scans);
   const sim::Stopwatch watch;
@@ -52,7 +53,7 @@ void run(const BaselineRequest& request) {
 }
 
 void run(const TessellateRequest& request) {
-  check_ply(request.out);
+  check_ply(request.out, {request.place});
   const sim::Place place = sim::read_place(request.place);
   const Mesh mesh = sim::tessellate(place.seen, request.options);
   write_ply_mesh(request.out, mesh);

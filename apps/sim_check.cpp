@@ -14,7 +14,9 @@
 #include "error.h"
 #include "fidelity.h"
 #include "files.h"
+#include "output_folder.h"
 #include "sim_check/report.h"
+#include "world/world_json.h"
 
 namespace scanworld::cli {
 
@@ -53,10 +55,18 @@ sim::CompareOptions resolve(const SimCheckRequest& request) {
   return o;
 }
 
+std::vector<std::filesystem::path> inputs_of(const SimCheckRequest& request) {
+  std::vector<std::filesystem::path> inputs = request.scans;
+  inputs.push_back(request.poses);
+  for (const auto& place : request.places) inputs.push_back(world_file(place));
+  return inputs;
+}
+
 void run(const SimCheckRequest& request) {
   const sim::CompareOptions options = resolve(request);
   std::optional<OutputFolder> folder;
-  if (!request.out.empty()) folder.emplace(request.out, "sim_check.json");
+  if (!request.out.empty()) folder.emplace(request.out, "sim_check.json", inputs_of(request));
+  if (!request.svg.empty()) check_output(request.svg, inputs_of(request));
   const Progress progress = request.console.make_progress();
   std::optional<PointCloud> scan;
   if (!request.scans.empty()) scan = read_scan_with_poses(request.scans, request.poses);
@@ -65,7 +75,7 @@ void run(const SimCheckRequest& request) {
   request.console.finish_progress();
   if (folder) {
     write_comparison(folder->path(), comparison);
-    folder->commit();
+    for (const std::string& file : folder->commit()) request.console.warn(file);
   }
   if (!request.svg.empty()) write_text(request.svg, sim::svg_of(comparison));
   fmt::print("{}", request.json  ? sim::json_of(comparison)

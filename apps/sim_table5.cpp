@@ -12,6 +12,7 @@
 #include "exporters/ply.h"
 #include "fidelity.h"
 #include "files.h"
+#include "output_folder.h"
 #include "reconstruct.h"
 #include "sim_check.h"
 #include "sim_check/baselines/baselines.h"
@@ -157,7 +158,9 @@ void run(const Table5Request& request) {
   const sim::CompareOptions options = request.measure.resolved();
   if (!options.with_speed)
     throw Error(Cause::usage, "table5 is about speed; --only robustness leaves nothing of it");
-  OutputFolder folder(request.out, "table5.md");
+  std::vector<std::filesystem::path> inputs = request.scans;
+  inputs.push_back(request.poses);
+  OutputFolder folder(request.out, "table5.md", inputs);
   const Progress progress = request.console.make_progress();
   const PointCloud cloud = read_scan_with_poses(request.scans, request.poses);
   const std::vector<Entry> entries = make_entries(request, cloud, progress);
@@ -171,10 +174,11 @@ void run(const Table5Request& request) {
                   grouped(cloud.points.size())) +
       kAbout + summary(entries, comparison);
   write_folder(folder.path(), entries, comparison, table);
-  folder.commit();
+  const std::vector<std::string> kept = folder.commit();
   fmt::print("{}", table);
   for (const std::string& noise : comparison.noise)
     request.console.warn("the machine was too noisy to judge: " + noise);
+  for (const std::string& file : kept) request.console.warn(file);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 #include "viewer/drawn_plan.h"
 #include "viewer/page.h"
 #include "viewer/picture.h"
-#include "world/validate.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -30,6 +29,8 @@ constexpr const char* kViewExample = R"(Examples:
   scanworld view office -o office.svg                    the floor plan, with dimensions
 The page also shows report.json, replay.json (build --record) and sim_check.json where these are beside
 world.json. docs/page.md tells what is in it.)";
+
+constexpr const char* kPageMark = "The scanworld authors";  // that each page bears
 
 struct ViewRequest {
   std::filesystem::path world, poses, out, sim_check;
@@ -122,11 +123,12 @@ void run(const ViewRequest& request) {
     throw Error(Cause::usage, out.string() + ": view writes .html, .png and .svg");
   if (extension != ".html" && !request.scans.empty())
     throw Error(Cause::usage, out.string() + ": a scan is shown on pages only");
+  std::vector<std::filesystem::path> inputs = request.scans;
+  inputs.insert(inputs.end(), {world_file(request.world), request.poses, request.sim_check});
+  check_output(out, inputs);
+  if (request.out.empty()) check_replaces_own(out, kPageMark);
   const ThreadLimit threads(request.threads);
-  const World world = read_world(request.world);
-  if (const auto reasons = validate(world); !reasons.empty())
-    throw Error(Cause::bad_input,
-                fmt::format("{}: not valid: {}", request.world.string(), fmt::join(reasons, "; ")));
+  const World world = read_valid_world(request.world);
   if (extension == ".png")
     write_picture(request, world, out);
   else if (extension == ".svg")

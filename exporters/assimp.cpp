@@ -89,15 +89,14 @@ void fill_element(std::string& xml, const std::string& tag, const std::string& v
 std::string written(const std::filesystem::path& path, const aiScene& scene,
                     const std::string& format) {
   // Through a file, as assimp makes 3MF no other way.
-  const std::filesystem::path part = path.string() + ".assimp";
+  const ScratchFolder folder(path);
+  const std::filesystem::path part = folder.path() / "part";
   Assimp::Exporter exporter;
   if (exporter.Export(&scene, format, part.string()) != aiReturn_SUCCESS)
     throw Error(Cause::failure,
                 path.string() + ": assimp cannot write it: " + exporter.GetErrorString());
   std::ifstream file(part, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  file.close();
-  std::filesystem::remove(part);
   return bytes;
 }
 

@@ -10,7 +10,6 @@
 #include "bullet.h"
 #include "dot.h"
 #include "error.h"
-#include "files.h"
 #include "gltf.h"
 #include "graphml.h"
 #include "grid.h"
@@ -19,6 +18,7 @@
 #include "mjcf.h"
 #include "obj.h"
 #include "octomap.h"
+#include "output_folder.h"
 #include "ply.h"
 #include "sdf.h"
 #include "stl.h"
@@ -162,19 +162,25 @@ void export_scan(const PointCloud& scan, const std::filesystem::path& path,
   chosen.write_scan(path, scan, options);
 }
 
-std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,
-                                const ExportOptions& options) {
-  OutputFolder output(folder, "world_model");  // which nothing else makes
+std::vector<LeftOut> write_formats(const std::filesystem::path& folder, const World& world,
+                                   const ExportOptions& options) {
   const World prepared = prepare_export(world, options);
   std::vector<LeftOut> left_out;
   for (const ExportFormat& format : export_formats()) try {
       check_fits(format, folder, options);
-      format.write(output.path() / ("world." + format.extension), prepared, options);
+      format.write(folder / ("world." + format.extension), prepared, options);
     } catch (const Error& error) {
       if (error.cause != Cause::usage) throw;
       left_out.push_back({format.name, error.what()});
     }
-  write_text(output.path() / "README.md", readme(left_out));
+  write_text(folder / kFormatsMark, readme(left_out));
+  return left_out;
+}
+
+std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,
+                                const ExportOptions& options) {
+  OutputFolder output(folder, kFormatsMark);
+  std::vector<LeftOut> left_out = write_formats(output.path(), world, options);
   output.commit();
   return left_out;
 }

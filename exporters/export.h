@@ -54,8 +54,15 @@ struct LeftOut {
   std::string format, why;
 };
 
-// Writes a folder with the world in every format, and a README that says how to load each. The
-// folder appears whole or not at all. What a format refuses is left out and told.
+// The file that is in each folder of all formats: a README that says how to load each.
+inline constexpr const char* kFormatsMark = "README.md";
+
+// Writes the world in every format into a folder that is there, and the README. What a format
+// refuses is left out and told.
+std::vector<LeftOut> write_formats(const std::filesystem::path& folder, const World& world,
+                                   const ExportOptions& options = {});
+
+// The same as a folder of its own, which appears whole or not at all.
 std::vector<LeftOut> export_all(const World& world, const std::filesystem::path& folder,
                                 const ExportOptions& options = {});
 

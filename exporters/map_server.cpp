@@ -44,8 +44,14 @@ void write_map(const std::filesystem::path& path, const MapImage& map) {
       "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
       map.comment, name, map.mode, grid.cell, grid.corner.x(), grid.corner.y());
   const bool is_image = lower_extension(path) == ".pgm";
-  OutputFile image(path.parent_path() / (name + ".pgm")),
-      text(is_image ? path.parent_path() / (name + ".yaml") : path);
+  const std::filesystem::path folder = path.parent_path();
+  const std::filesystem::path image_path = folder / (name + ".pgm"),
+                              text_path = is_image ? folder / (name + ".yaml") : path;
+  if (is_image)
+    check_replaces_own(text_path, "# scanworld: ");
+  else
+    check_replaces_own(image_path, "P5\n");
+  OutputFile image(image_path), text(text_path);
   image.write(fmt::format("P5\n{} {}\n255\n", grid.columns, grid.rows));
   for (std::size_t row = grid.rows; row-- > 0;)
     image.write(map.pixels.data() + row * grid.columns, grid.columns);

@@ -4,6 +4,7 @@
 
 #include "files.h"
 #include "obj.h"
+#include "output_folder.h"
 
 namespace scanworld {
 

@@ -14,6 +14,8 @@ namespace scanworld {
 
 namespace {
 
+constexpr const char* kMtlTitle = "# scanworld\n";
+
 // Surfaces without a colour of their own share one material a kind.
 std::string material_name(const ExportPart& part) {
   if (part.color == color_of(part.kind)) return part.is_surface ? name_of(part.kind) : "obstacle";
@@ -74,7 +76,7 @@ void write_obj(const std::filesystem::path& path, const World& world,
   const std::vector<ExportPart> parts = export_parts(world, options);
   const std::filesystem::path mtl_path = path.parent_path() / (safe_name(path) + ".mtl");
 
-  std::string mtl = "# scanworld\n";
+  std::string mtl = kMtlTitle;
   std::set<std::string> known;
   for (const ExportPart& part : parts)
     if (known.insert(material_name(part)).second)
@@ -87,6 +89,7 @@ void write_obj(const std::filesystem::path& path, const World& world,
   for (const ExportPart& part : parts)
     obj += object_text(part.name, material_name(part), part.mesh, count);
 
+  check_replaces_own(mtl_path, kMtlTitle);
   OutputFile mtl_file(mtl_path), obj_file(path);
   mtl_file.write(mtl);
   obj_file.write(obj);

@@ -5,6 +5,7 @@
 #include "bodies.h"
 #include "files.h"
 #include "mesh_folder.h"
+#include "output_folder.h"
 #include "parts.h"
 #include "version.h"
 #include "xml.h"

@@ -15,7 +15,6 @@
 #include "timing.h"
 #include "world/level.h"
 #include "world/solids.h"
-#include "world/validate.h"
 #include "world/world_json.h"
 
 namespace scanworld::sim {
@@ -66,9 +65,7 @@ Place read_mesh_place(const std::filesystem::path& path, const PlaceOptions& opt
 
 Place read_world_place(const std::filesystem::path& path, const PlaceOptions& options) {
   const Stopwatch watch;
-  const World world = read_world(path);
-  if (const auto reasons = validate(world); !reasons.empty())
-    throw Error(Cause::bad_input, path.string() + ": not a valid world: " + reasons[0]);
+  const World world = read_valid_world(path);
   if (world.surfaces.empty()) throw Error(Cause::bad_input, path.string() + ": no surface in it");
   Place place = place_of(path.string(), world, options);
   place.load_seconds = watch.wall();

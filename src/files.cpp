@@ -4,12 +4,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "error.h"
@@ -24,16 +26,16 @@ namespace {
   throw Error(Cause::failure, fmt::format("{}: {}: {}", path.string(), doing, why));
 }
 
-// A name beside `path` that no other process uses.
-fs::path beside(const fs::path& path, std::string_view what) {
-  return path.parent_path() / fmt::format(".{}.{}-{}", path.filename().string(), what, ::getpid());
-}
-
-// "a/b/" and "a/b" are the same place; the path is made absolute so that a changed folder does not
-// matter.
-fs::path place(const fs::path& path) {
-  fs::path whole = fs::absolute(path).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
+// Tries names beside `path` until `make` could make something new under one; it returns whether it
+// did, with errno set where not.
+template <typename Make>
+fs::path make_beside(const fs::path& path, const Make& make) {
+  for (int i = 0;; ++i) {
+    const fs::path name =
+        path.parent_path() / fmt::format(".{}.part-{}-{}", path.filename().string(), ::getpid(), i);
+    if (make(name)) return name;
+    if (errno != EEXIST) fail_at(path, "writing", std::strerror(errno));
+  }
 }
 
 }  // namespace
@@ -46,10 +48,79 @@ std::string lower_extension(const fs::path& path) {
                                                            : extension;
 }
 
-OutputFile::OutputFile(fs::path path) : path_(place(path)), part_(beside(path_, "part")) {
+fs::path place_of(const fs::path& path) {
+  std::error_code error;
+  fs::path whole = fs::absolute(path);
+  while (whole.has_parent_path() && whole != whole.root_path() &&
+         (!whole.has_filename() || whole.filename() == "."))
+    whole = whole.parent_path();
+  const bool is_named = whole.has_filename() && whole.filename() != "..";
+  const fs::path real = fs::weakly_canonical(is_named ? whole.parent_path() : whole, error);
+  if (error) return whole.lexically_normal();
+  return is_named ? real / whole.filename() : real;
+}
+
+bool is_within(const fs::path& folder, const fs::path& path) {
+  std::error_code error;
+  fs::path at = fs::canonical(path, error);
+  while (!error && !fs::equivalent(folder, at, error)) {
+    if (at == at.root_path()) return false;
+    at = at.parent_path();
+  }
+  return !error;
+}
+
+void check_output(const fs::path& out, const std::vector<fs::path>& inputs) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(Cause::usage, fmt::format("{}: not written: {}", out.string(), why));
+  };
+  std::error_code error;
+  const fs::path path = place_of(out);
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return;
+  if (fs::is_symlink(status))
+    refuse(fmt::format("is a symlink to {}; name the file itself",
+                       fs::read_symlink(path, error).string()));
+  if (fs::is_directory(status)) refuse("is a folder");
+  if (!fs::is_regular_file(status)) refuse("is no plain file");
+  for (const fs::path& input : inputs)
+    if (!input.empty() && fs::equivalent(path, input, error))
+      refuse("is the input " + input.string());
+}
+
+bool bears_mark(const fs::path& file, std::string_view mark) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head(1 << 20, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head.find(mark) != std::string::npos;
+}
+
+void check_replaces_own(const fs::path& out, std::string_view mark) {
   std::error_code ignored;
-  if (fs::is_directory(path_, ignored)) fail_at(path_, "writing", "is a folder");
-  file_ = std::fopen(part_.c_str(), "wbe");
+  if (fs::is_regular_file(out, ignored) && !bears_mark(out, mark))
+    throw Error(Cause::usage, fmt::format("{}: not written: there is a file of this name that "
+                                          "scanworld did not write",
+                                          out.string()));
+}
+
+ScratchFolder::ScratchFolder(const fs::path& beside)
+    : path_(make_beside(place_of(beside),
+                        [](const fs::path& name) { return ::mkdir(name.c_str(), 0777) == 0; })) {}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+}
+
+OutputFile::OutputFile(fs::path path) : path_(place_of(path)) {
+  check_output(path);
+  int file = -1;
+  part_ = make_beside(path_, [&](const fs::path& name) {
+    file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return file >= 0;
+  });
+  file_ = ::fdopen(file, "wb");
   if (!file_) fail("writing");
 }
 
@@ -80,53 +151,6 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
   OutputFile file(path);
   file.write(text);
   file.commit();
-}
-
-OutputFolder::OutputFolder(fs::path path, std::string_view mark)
-    : path_(place(path)), part_(beside(path_, "part")) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path_, error);
-  if (fs::exists(status)) {
-    if (!fs::is_directory(status))
-      fail_at(path_, "writing the folder", "there is a file of this name");
-    const bool empty = fs::is_empty(path_, error);
-    if (!empty && !fs::exists(path_ / mark, error))
-      fail_at(path_, "writing the folder",
-              fmt::format("it holds other files and no {}; not replaced", mark));
-    if (::access(path_.c_str(), W_OK) != 0)
-      fail_at(path_, "writing the folder", std::strerror(errno));
-  }
-  fs::create_directories(path_.parent_path(), error);
-  if (error) fail_at(path_.parent_path(), "making the folder", error.message());
-  fs::remove_all(part_, error);
-  fs::create_directory(part_, error);
-  if (error) fail_at(path_, "writing the folder", error.message());
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!part_.empty()) fs::remove_all(part_, ignored);
-}
-
-void OutputFolder::commit() {
-  // Where there is an older folder, the two change places in one step; the older one is then
-  // removed.
-  std::error_code error;
-  if (fs::exists(path_, error)) {
-    if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) return;
-    const fs::path old = beside(path_, "old");  // a file system that cannot exchange
-    fs::rename(path_, old, error);
-    if (error) fail_at(path_, "replacing the folder", error.message());
-    fs::rename(part_, path_, error);
-    if (error)
-      fs::rename(old, path_);
-    else
-      fs::remove_all(old, error);
-    return;
-  }
-  fs::rename(part_, path_, error);
-  if (error) fail_at(path_, "writing the folder", error.message());
-  part_.clear();
 }
 
 }  // namespace scanworld

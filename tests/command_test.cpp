@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command as a user runs it: what it prints, leaves behind and returns.
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "scan/read_scan.h"
@@ -42,7 +43,7 @@ TEST_CASE("build writes its folder with world, report and exports") {
   for (const char* name : {"world.json", "report.json", "world.obj", "world.mtl", "world.stl",
                            "world.glb", "world.bullet", "labels.ply", "report.html"})
     CHECK(fs::exists(folder / "world" / name));
-  CHECK(entries(folder / "world") == 9);
+  CHECK(entries(folder / "world") == 10);  // with the list of its files
   CHECK(validate(read_world(folder / "world")).empty());
   CHECK(entries(folder.path()) == 2);
 
@@ -66,14 +67,49 @@ TEST_CASE("build replaces a world of its own and no other folder") {
   const fs::path scan = room_scan(folder);
   CHECK(run({"build", scan, "-o", folder / "w"}).code == 0);
   CHECK(run({"build", scan, "-o", folder / "w", "--export", "none"}).code == 0);
-  CHECK(entries(folder / "w") == 3);
+  CHECK(entries(folder / "w") == 4);
   fs::create_directory(folder / "mine");
   write_file(folder / "mine/thesis.tex", "years of work");
   const Outcome outcome = run({"build", scan, "-o", folder / "mine"});
-  CHECK(outcome.code == 1);
+  CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "mine"));
   CHECK(read_file(folder / "mine/thesis.tex") == "years of work");
   CHECK(entries(folder / "mine") == 1);
+}
+
+TEST_CASE("no run harms its inputs, nor files that it did not write, and it tells before reading") {
+  const TempFolder folder;
+  const fs::path scan = room_scan(folder), world = folder / "w", absent = folder / "absent.ply";
+  REQUIRE(run({"build", scan, "-o", world, "--export", "none", "--labels"}).code == 0);
+  fs::create_symlink("w/labels.ply", folder / "link.ply");
+  fs::copy_file(scan, folder / "scan.ply");
+  const std::string poses = write_file(folder / "poses.txt", "1 1 1\n");
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& told) {
+    const Outcome outcome = run(arguments);
+    INFO(arguments[0] << ": " << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, told));
+  };
+  const std::string world_json = read_file(world / "world.json");
+  refused({"build", world / "labels.ply", "-o", world}, "labels.ply");
+  refused({"build", folder / "link.ply", "-o", world}, "link.ply");
+  refused({"build", absent, "--poses", poses, "-o", folder.path()}, "poses.txt");
+  refused({"build", absent, "--config", write_file(folder / "c.toml", ""), "-o", folder.path()},
+          "c.toml");
+  refused({"scan", world / "world.json", "-o", world / "world.json"}, "world.json");
+  refused({"export", world, "-o", world / "world.json"}, "world.json");
+  refused({"export", world, "-o", world, "--all"}, "world.json");
+  refused({"export", scan, "-o", scan, "--format", "bt"}, "room.ply");
+  refused({"view", world, scan, "-o", folder / "link.ply"}, "view writes");
+  write_file(world / "view.html", "<p>mine");
+  refused({"view", world}, "view.html");
+  refused({"build", absent, "-o", world}, "view.html");
+  write_file(folder / "x.mtl", "mine");
+  refused({"export", world, "-o", folder / "x.obj"}, "x.mtl");
+  write_file(folder / "x.labels.ply", "mine");
+  refused({"scan", world, "-o", folder / "x.ply", "--labels"}, "x.labels.ply");
+  CHECK(read_file(world / "world.json") == world_json);
+  CHECK(read_file(scan) == read_file(folder / "scan.ply"));
 }
 
 TEST_CASE(
@@ -266,6 +302,31 @@ TEST_CASE("check says what is wrong with a world, with exit code 5") {
   CHECK(json["valid"] == false);
   CHECK(json["reasons"].size() == 1);
   CHECK(run({"check", write_file(folder / "no.json", "{")}).code == 3);
+}
+
+TEST_CASE("a world that is not valid is refused by all that would use it, with exit code 3") {
+  const TempFolder folder;
+  World missing = small_world(), no_up = small_world();
+  missing.surfaces[0].outer[0] = 99999;
+  no_up.frame.up.setZero();
+  write_world(folder / "missing.json", missing);
+  write_world(folder / "no_up.json", no_up);
+  const std::map<std::string, std::string> told = {
+      {"missing.json", "surface 0: outer has the vertex 99999"},
+      {"no_up.json", "frame: up is not of length 1"}};
+  for (const auto& [name, why] : told)
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info"},
+                                                      {"export", "-o", folder / "x.stl"},
+                                                      {"scan", "-o", folder / "x.ply"},
+                                                      {"view", "-o", folder / "x.html"}}) {
+      std::vector<std::string> whole = arguments;
+      whole.insert(whole.begin() + 1, folder / name);
+      const Outcome outcome = run(whole);
+      INFO(arguments[0] << ": " << outcome.err);
+      CHECK(outcome.code == 3);
+      CHECK(contains(outcome.err, name + ": not valid: " + why));
+    }
+  CHECK(entries(folder.path()) == 2);
 }
 
 TEST_CASE(

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "../error.h"
+#include "validate.h"
 #include "world_json.h"
 
 namespace scanworld {
@@ -277,16 +278,30 @@ World parse_world(const std::string& text, const std::string& name) {
   return read_document(Node(json, name + ": world"));
 }
 
+std::filesystem::path world_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored) ? path / "world.json" : path;
+}
+
 World read_world(const std::filesystem::path& path) {
   std::error_code ignored;
-  const std::filesystem::path file =
-      std::filesystem::is_directory(path, ignored) ? path / "world.json" : path;
+  const std::filesystem::path file = world_file(path);
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file, ignored))
     throw Error(Cause::bad_input, file.string() + ": cannot be opened");
   std::ostringstream text;
   text << in.rdbuf();
   return parse_world(text.str(), file.string());
+}
+
+World read_valid_world(const std::filesystem::path& path) {
+  World world = read_world(path);
+  if (const auto reasons = validate(world); !reasons.empty())
+    throw Error(
+        Cause::bad_input,
+        fmt::format("{}: not valid: {}{}", world_file(path).string(), reasons[0],
+                    reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : ""));
+  return world;
 }
 
 }  // namespace scanworld

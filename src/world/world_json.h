@@ -12,10 +12,16 @@ namespace scanworld {
 // The version of the format that is written, and the only one that is read.
 inline constexpr int kWorldSchemaVersion = 1;
 
+// The file that holds a world: world.json in a folder, else the path itself.
+std::filesystem::path world_file(const std::filesystem::path& path);
+
 // Reads a world from world.json, or from the world.json in a folder. Throws bad_input naming the
 // file and the place in it: what is missing, of another type, unknown, or of another version.
 // Nothing is left out silently.
 World read_world(const std::filesystem::path& path);
+// The same, for all who use a world rather than judge it: throws bad_input where it is not valid
+// (validate.h), naming the first reason.
+World read_valid_world(const std::filesystem::path& path);
 World parse_world(const std::string& text, const std::string& name = "world");
 
 // Writes a world so that reading it gives the same world, bit for bit.
