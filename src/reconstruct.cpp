@@ -211,7 +211,7 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
                     ReconstructResult& result, Recorder& recorder) {
   using namespace rival;
   const RivalOptions& options = all.rival;
-  const Scale scale = log.run("Estimating the scale", "points -> lengths", cloud,
+  Scale scale = log.run("Estimating the scale", "points -> lengths", cloud,
                               [&] { return estimate_scale(cloud, options.scale); });
   result.report.scale = scale.voxel;
   result.report.spacing = scale.spacing;
@@ -236,10 +236,15 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     return fit_locally(grid, neighbors, scale, options.local, std::move(local), changed);
   });
   record_seeds(recorder, grid, local);
-  Clustering clusters = log.run("Growing clusters", "sites -> clusters", local, [&] {
-    return grow_clusters(grid, neighbors, scale, local, {}, options.growth,
-                         watch(recorder, "Growth"));
+  const auto grow = [&](const Observer& observe) {
+    return grow_clusters(grid, neighbors, scale, local, {}, options.growth, observe);
+  };
+  scale.flatness = log.run("Measuring flatness", "sites -> lengths", local, [&] {
+    return find_flatness(grid, neighbors, scale, grow({}), options);
   });
+  result.report.flatness = scale.flatness.bend_at(1);
+  Clustering clusters = log.run("Growing clusters", "sites -> clusters", local,
+                                [&] { return grow(watch(recorder, "Growth")); });
   clusters = log.run("Rivalry", "clusters -> clusters", clusters, [&] {
     return settle(grid, neighbors, scale, local, std::move(clusters), options,
                   watch(recorder, "Rivalry"));
@@ -294,7 +299,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 23);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 24);
   Found found = options.method == Method::thesis
                     ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder), {}}
                     : find_by_rival(cloud, options, log, result, recorder);

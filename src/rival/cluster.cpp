@@ -46,6 +46,19 @@ std::vector<std::vector<std::uint32_t>> members_of(const Clustering& c) {
   return members;
 }
 
+double square_bend(const MomentFit& fit, const Scale& scale) {
+  const double extent = extent_of(fit);
+  const double own = fit.variance[0] - scale.variance_at(fit.centroid);
+  return std::clamp(own, std::pow(scale.flatness.bend_at(extent), 2),
+                    std::pow(scale.flatness.limit_at(extent), 2));
+}
+
+std::vector<double> square_bends(const Clustering& c, const Scale& scale) {
+  std::vector<double> bends;
+  for (const Cluster& cluster : c.clusters) bends.push_back(square_bend(cluster.fit, scale));
+  return bends;
+}
+
 void refit(const Grid& grid, Clustering& c) {
   const std::vector<Moments> sums = sum_moments(grid, c);
   std::vector<std::int32_t> to(c.clusters.size(), kNone);

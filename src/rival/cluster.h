@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid.h"
+#include "scale.h"
 
 namespace scanworld::rival {
 
@@ -46,6 +47,13 @@ using Observer = std::function<void(std::string_view what, const Clustering& clu
 
 inline std::size_t count_of(const Clustering& c) { return c.clusters.size(); }
 
+// The larger extent of a cluster [m].
+inline double extent_of(const MomentFit& fit) { return std::sqrt(12 * fit.variance[2]); }
+
+// The square of how far the surface of a cluster may be off its plane by itself [m2]: as far as
+// those of its extent are in this scan, or as its own points tell, within limits.
+double square_bend(const MomentFit& fit, const Scale& scale);
+
 constexpr double kMinPoints = 12;  // that a cluster needs for its plane to mean something
 
 // The standard deviation of a cluster's points off its plane, or `least` [m] where that is more.
@@ -62,6 +70,9 @@ inline bool add_new(std::vector<std::int32_t>& labels, std::int32_t l) {
 
 // The sites of each cluster, ascending.
 std::vector<std::vector<std::uint32_t>> members_of(const Clustering& clustering);
+
+// The square of how far each cluster's surface may be off its plane by itself [m2].
+std::vector<double> square_bends(const Clustering& clustering, const Scale& scale);
 
 // Fits all clusters to their sites and drops those with fewer than kMinPoints points.
 void refit(const Grid& grid, Clustering& clustering);

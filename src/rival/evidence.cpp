@@ -70,9 +70,11 @@ bool is_bent(const Grid& grid, const std::vector<std::uint32_t>& sites, const Cl
   // A parabola over a length l has the rms k l^2 / (8 * 3.35).
   const double square_length = 12 * cluster.fit.variance[2];
   const double curvature = 8 * 3.35 * bend.rms / square_length;
+  const double bent = std::sqrt(scale.variance_at(cluster.fit.centroid) +
+                                std::pow(scale.flatness.bend_at(extent_of(cluster.fit)), 2));
   return (curvature > options.min_curvature || bend.rms > options.high_bend) &&
          bend.share > options.bend_share + options.bend_chance / cluster.moments.n &&
-         bend.rms > options.bend_height * scale.noise_at(cluster.fit.centroid);
+         bend.rms > options.bend_height * bent;
 }
 
 // For each cluster, how many of its points larger ones that are next to them explain as well.
@@ -80,6 +82,7 @@ std::vector<double> count_explained(const Grid& grid, const Neighbors& neighbors
                                     const Scale& scale, const Clustering& c,
                                     const EvidenceOptions& options) {
   const double max_square = options.explained_distance * options.explained_distance;
+  const std::vector<double> bends = square_bends(c, scale);
   std::vector<double> explained(c.clusters.size());
   const auto points = [&](std::int32_t l) {
     return c.clusters[static_cast<std::size_t>(l)].moments.n;
@@ -93,7 +96,7 @@ std::vector<double> count_explained(const Grid& grid, const Neighbors& neighbors
       if (l == kNone || l == own || points(l) <= points(own)) continue;
       const Plane& plane = c.plane(l);
       if (std::pow(plane.signed_distance(s.position()), 2) + s.variance(plane.normal) >
-          max_square * scale.variance_at(s.position()))
+          max_square * (scale.variance_at(s.position()) + bends[static_cast<std::size_t>(l)]))
         continue;
       explained[static_cast<std::size_t>(own)] += s.points;
       break;

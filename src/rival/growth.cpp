@@ -90,6 +90,7 @@ class Grower {
   }
   void fit_plane() {
     cluster_.fit = fit(cluster_.moments);
+    bend_ = square_bend(cluster_.fit, scale_);
     normal_ = cluster_.fit.plane.normal.cast<float>();
   }
 
@@ -101,7 +102,7 @@ class Grower {
     const Site& s = grid_.sites[j];
     const Plane& plane = cluster_.fit.plane;
     const double d = plane.signed_distance(s.position());
-    const double variance = scale_.variance_at(s.position());
+    const double variance = scale_.variance_at(s.position()) + bend_;
     if (d * d > (many_ + one_) * variance) return false;
     if (d * d + s.variance(plane.normal) > (many_ + one_ / s.points) * variance) return false;
     return !local_[j].planar() || std::abs(local_[j].normal.dot(normal_)) >= cos_angle_;
@@ -120,6 +121,7 @@ class Grower {
   Cluster cluster_;
   Vec3f normal_ = Vec3f::UnitZ();
   double fit_at_ = 0;
+  double bend_ = 0;  // [m2]
   std::vector<std::uint32_t> members_;
 };
 

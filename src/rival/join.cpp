@@ -6,15 +6,17 @@
 
 namespace scanworld::rival {
 
-double square_limit(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms) {
+double square_limit(const Cluster& a, const Cluster& b, double extent, const Scale& scale,
+                    double max_rms) {
   const double noise = std::max(scale.noise_at(a.fit.centroid), scale.noise_at(b.fit.centroid));
-  return std::pow(max_rms * noise, 2);
+  const double bend = scale.flatness.limit_at(extent);
+  return max_rms * max_rms * (noise * noise + bend * bend);
 }
 
 double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms) {
-  const Plane plane = fit(a.moments + b.moments).plane;
-  return std::max(a.moments.mean_square(plane), b.moments.mean_square(plane)) /
-         square_limit(a, b, scale, max_rms);
+  const MomentFit joint = fit(a.moments + b.moments);
+  return std::max(a.moments.mean_square(joint.plane), b.moments.mean_square(joint.plane)) /
+         square_limit(a, b, extent_of(joint), scale, max_rms);
 }
 
 void Joiner::join(std::size_t a, std::size_t b) {

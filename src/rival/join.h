@@ -9,7 +9,8 @@
 namespace scanworld::rival {
 
 // The square of `max_rms` times the noise where two clusters are, the larger of the two [m2].
-double square_limit(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms);
+double square_limit(const Cluster& a, const Cluster& b, double extent, const Scale& scale,
+                    double max_rms);
 
 // The mean square of two clusters' points about the plane in common, the larger of the two, over
 // that limit: under 1 where one plane serves both.

@@ -46,6 +46,7 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
     own_square.push_back(std::pow(options.max_own * noise.back(), 2));
   }
   const double max_square = options.max_distance * options.max_distance;
+  const std::vector<double> bends = square_bends(c, scale);
 
   LabelledPoints result;
   std::vector<std::int32_t>& labels = result.labels;
@@ -66,12 +67,12 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
         double best = std::numeric_limits<double>::max();
         std::int32_t label = kNone;
         for (const Candidate& a : near) {
+          const auto k = static_cast<std::size_t>(a.label);
           const double square = std::pow(c.plane(a.label).signed_distance(p), 2);
-          if (square >
-              std::min(max_square * variance, own_square[static_cast<std::size_t>(a.label)]))
-            continue;
-          if (square / variance + a.price < best)
-            best = square / variance + a.price, label = a.label;
+          const double expected = variance + bends[k];
+          if (square > std::min(max_square * expected, own_square[k])) continue;
+          if (square / expected + a.price < best)
+            best = square / expected + a.price, label = a.label;
         }
         if (label == kNone) continue;
         labels[point] = label;

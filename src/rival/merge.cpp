@@ -35,7 +35,23 @@ double layer_price(const Cluster& larger, const Contact& there, const Cluster& s
       std::abs(larger.fit.plane.normal.dot(smaller.fit.plane.normal)) < kLayers)
     return kNever;
   return (there.moments + smaller.moments).mean_square(larger.fit.plane) /
-         square_limit(larger, smaller, scale, options.max_rms);
+         square_limit(larger, smaller, extent_of(larger.fit), scale, options.max_rms);
+}
+
+// Whether two clusters are on two levels where they meet: `here` are the sites of the one there,
+// `there` those of the other.
+bool is_step(const Cluster& a, const Contact& here, const Cluster& b, const Contact& there,
+             const MergeOptions& options) {
+  const Vec3 other = b.fit.plane.normal;
+  const double side = a.fit.plane.normal.dot(other) < 0 ? -1 : 1;
+  const Vec3 normal = (a.fit.plane.normal + side * other).normalized();
+  const auto square_error = [&](const Moments& m) {
+    return normal.dot(m.covariance() * normal) / m.n;
+  };
+  const double step = std::abs(normal.dot(here.moments.mean() - there.moments.mean()));
+  const double error =
+      std::sqrt(std::max(0.0, square_error(here.moments) + square_error(there.moments)));
+  return step > std::max(options.min_step, options.step_errors * error);
 }
 
 double plane_price(const Cluster& a, const Cluster& b, const Scale& scale,
@@ -53,9 +69,11 @@ std::vector<Bid> find_bids(const Clustering& c, const std::vector<Contact>& cont
     if (bid.price < 1) bids.push_back(bid);
   };
   for (const Contact& k : contacts) {
-    if (k.a < k.b) offer({plane_price(at(k.a), at(k.b), scale, options), k.a, k.b, false});
     const auto back = std::lower_bound(contacts.begin(), contacts.end(), Contact{k.b, k.a, {}});
-    if (back == contacts.end() || back->a != k.b || back->b != k.a) continue;
+    const bool is_mutual = back != contacts.end() && back->a == k.b && back->b == k.a;
+    if (k.a < k.b && !(is_mutual && is_step(at(k.a), k, at(k.b), *back, options)))
+      offer({plane_price(at(k.a), at(k.b), scale, options), k.a, k.b, false});
+    if (!is_mutual) continue;
     offer({layer_price(at(k.b), *back, at(k.a), k, scale, options), k.b, k.a, true});
   }
   std::sort(bids.begin(), bids.end());

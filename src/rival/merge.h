@@ -9,7 +9,9 @@
 namespace scanworld::rival {
 
 struct MergeOptions {
-  double max_rms = 1.35;  // [noise] of each part about the plane in common
+  double max_rms = 1.35;   // [noise and bend] of each part about the plane in common
+  double min_step = 0.01;  // [m] parts that meet with a higher step, if it is also ...
+  double step_errors = 3;  // ... more than so many standard errors, are two surfaces
 };
 
 // Unites neighbouring clusters that have one plane.

@@ -12,6 +12,14 @@ void tell(const Observer& observe, std::string_view what, const Clustering& clus
 
 }  // namespace
 
+Flatness find_flatness(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                       Clustering c, const RivalOptions& options) {
+  Scale loose = scale;  // for which a surface is what has no step
+  loose.flatness.max_sag = 1;
+  c = merge_clusters(grid, neighbors, loose, std::move(c), options.merge);
+  return measure_flatness(grid, c, scale.flatness, options.flatness);
+}
+
 Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                   std::vector<LocalPlane>& local, Clustering c, const RivalOptions& options,
                   const Observer& observe) {
@@ -71,6 +79,10 @@ OptionList list_options(RivalOptions& o) {
        "and at least so many times the noise", 0},
       {"rival.scale.depth_step", &o.scale.depth_step, "1/m",
        "a depth camera's noise is at least this times range squared", 0},
+      {"rival.scale.max_bend", &o.scale.max_bend, "m",
+       "surfaces are not taken to bend by more; 0 = all are flat", 0},
+      {"rival.scale.max_sag", &o.scale.max_sag, "",
+       "a surface may bend by this share of its extent, however flat others are", 0},
       {"rival.neighbors.min_points", &o.neighbors.min_points, "",
        "a neighbourhood grows until it holds so many", 0},
       {"rival.neighbors.min_sites", &o.neighbors.min_sites, "",

@@ -9,6 +9,7 @@
 #include "bridge.h"
 #include "columns.h"
 #include "evidence.h"
+#include "flatness.h"
 #include "growth.h"
 #include "labels.h"
 #include "local.h"
@@ -30,6 +31,7 @@ struct RivalOptions {
   GrowthOptions growth;
   RivalryOptions rivalry;
   MergeOptions merge;
+  FlatnessOptions flatness;
   int birth_rounds = 1;  // in which clusters are grown from what no cluster explains
   int birth_reach = 4;   // [voxels] that the neighbourhoods of what is left may reach
   SplitOptions split;
@@ -42,6 +44,11 @@ struct RivalOptions {
 
 // All of them by name, "rival.scale.noise" and so on.
 OptionList list_options(RivalOptions& options);
+
+// How flat the scan's surfaces are, by clusters that have just grown: their pieces are joined where
+// they go on into each other.
+Flatness find_flatness(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                       Clustering clustering, const RivalOptions& options = {});
 
 // Lets clusters compete until they settle, then grows new ones from the sites that are in none and
 // lets these compete too. The local planes of those sites become those of what is left.

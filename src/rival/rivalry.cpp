@@ -15,21 +15,23 @@ namespace {
 // The label that explains a site at the lowest price. Notes whether it has others around it.
 std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, const Grid& grid,
                         const std::vector<LocalPlane>& local, Clustering& c, const Scale& scale,
-                        float cos_angle, const RivalryOptions& options, Votes& votes) {
+                        const std::vector<double>& bends, float cos_angle,
+                        const RivalryOptions& options, Votes& votes) {
   const std::int32_t own = c.label[i];
   const auto& entries = votes.count(around, c.label, own);
   c.border[i] = entries.size() > (own == kNone ? 0 : 1);
   if (entries.empty()) return kNone;
   const int total = static_cast<int>(around.size()) - 1;  // the site itself is among them
   const Site& s = grid.sites[i];
-  const double per_square = 1 / scale.variance_at(s.position());
+  const double noise = scale.variance_at(s.position());
   const double n = std::min<double>(s.points, options.weight);
   double best = n * options.no_plane + options.smoothness;
   std::int32_t label = kNone;
   for (const auto& e : entries) {
     const Plane& plane = c.plane(e.label);
     const double d = plane.signed_distance(s.position());
-    const double ms = (d * d + s.variance(plane.normal)) * per_square;
+    const double ms = (d * d + s.variance(plane.normal)) /
+                      (noise + bends[static_cast<std::size_t>(e.label)]);
     double price = n * std::min(ms, 16.0);
     if (local[i].planar() && std::abs(local[i].normal.dot(plane.normal.cast<float>())) < cos_angle)
       price += n * options.wrong_normal;
@@ -54,6 +56,7 @@ Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& sc
   std::size_t most = 0;
   for (int sweep = 0; sweep < options.max_sweeps; ++sweep) {
     std::vector<std::vector<Change>> found(parts);
+    const std::vector<double> bends = square_bends(c, scale);
     parallel_for(parts, [&](std::size_t part) {
       const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
       Votes votes;
@@ -61,7 +64,7 @@ Clustering compete(const Grid& grid, const Neighbors& neighbors, const Scale& sc
         if (!c.awake[i]) continue;
         c.awake[i] = 0;
         const std::int32_t label =
-            best_label(i, neighbors.of(i), grid, local, c, scale, cos_angle, options, votes);
+            best_label(i, neighbors.of(i), grid, local, c, scale, bends, cos_angle, options, votes);
         if (label != c.label[i]) found[part].push_back({static_cast<std::uint32_t>(i), label});
       }
     });

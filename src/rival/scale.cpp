@@ -204,6 +204,7 @@ Scale estimate_scale(const PointCloud& cloud, const ScaleOptions& options) {
   if (scale.voxel == 0)
     scale.voxel = std::max({options.min_voxel, options.voxel_per_spacing * scale.spacing,
                             options.voxel_per_noise * std::max(scale.noise, seen.modelled)});
+  scale.flatness = {.max_bend = options.max_bend, .max_sag = options.max_sag};
   return scale;
 }
 

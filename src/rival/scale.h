@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "../types.h"
 
@@ -17,6 +18,26 @@ struct ScaleOptions {
   double voxel_per_spacing = 1.5;  // a voxel's edge in spacings
   double voxel_per_noise = 3;      // and at least so many times the noise
   double depth_step = 0;  // [1/m] a depth camera's noise is at least this times range squared
+  double max_bend = 0.02;  // [m] surfaces are not taken to bend by more; 0 = all are flat
+  double max_sag = 0.002;  // a surface may bend by this share of its extent, however flat others are
+};
+
+// How far the scan's surfaces are off planes by themselves, apart from noise: floors sag, and
+// registration bends what is straight. The rms off a plane grows with the extent that it is fitted
+// over.
+struct Flatness {
+  struct Sample {
+    double extent, bend;  // [m]
+  };
+  std::vector<Sample> samples;  // of rising extent and bend; none for a scan that is flat
+  double max_bend = 0, max_sag = 0;  // [m], and a share of the extent: what a single surface may be
+
+  // Beyond the largest extent that was seen it grows in proportion, at most to the double.
+  double bend_at(double extent) const;
+  // The most that a surface of this extent may bend and still be one.
+  double limit_at(double extent) const {
+    return std::max(bend_at(extent), std::min(max_bend, max_sag * extent));
+  }
 };
 
 // The lengths that a scan is looked at in.
@@ -26,6 +47,7 @@ struct Scale {
   double voxel = 0;       // [m]
   double depth_step = 0;  // [1/m] noise is at least this times the squared distance from `camera`
   Vec3 camera = Vec3::Zero();
+  Flatness flatness;
 
   // The noise of points at p [m].
   double noise_at(const Vec3& p) const {
@@ -35,6 +57,7 @@ struct Scale {
 };
 
 inline std::size_t count_of(const Scale&) { return 3; }
+inline std::size_t count_of(const Flatness& flatness) { return flatness.samples.size(); }
 
 // Looks at a few thousand cells of the scan and fits a plane to each, robustly. Noise is the upper
 // quartile of the rms of those that hold one plane (a scanner's noise is along the ray, so the
