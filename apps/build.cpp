@@ -21,7 +21,6 @@
 #include "view.h"
 #include "viewer/replay_json.h"
 #include "viewer/report_page.h"
-#include "world/validate.h"
 #include "world/world_json.h"
 
 namespace scanworld::cli {
@@ -198,9 +197,6 @@ void run(BuildRequest request) {
   const std::vector<std::string> warnings = warnings_about(cloud, result.world, options.frame);
   result.report.warnings.insert(result.report.warnings.begin(), warnings.begin(), warnings.end());
   add_provenance(result.world, request, cloud);
-  if (const auto reasons = validate(result.world); !reasons.empty())
-    throw Error(Cause::check_failed,
-                fmt::format("the world is not valid: {}", fmt::join(reasons, "; ")));
 
   StageLog log(result.report, progress, stages.size() + (limit > 0 ? 3 : 2));
   std::optional<sim::Budget> budget;

@@ -17,6 +17,7 @@
 #include "world/cloud_in_world.h"
 #include "world/find_frame.h"
 #include "world/glass.h"
+#include "world/mend.h"
 #include "world/obstacles.h"
 #include "world/openings.h"
 
@@ -279,6 +280,25 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result, recorder);
 }
 
+// Takes over a mended world: labels and what is told of each surface follow.
+void take(Mended mended, ReconstructResult& result) {
+  std::vector<std::int32_t> id_of(result.world.surfaces.size(), -1);
+  std::vector<double> noise;
+  for (std::size_t k = mended.from.size(); k-- > 0;)
+    id_of[mended.from[k]] = mended.world.surfaces[k].id;
+  if (!result.report.plane_noise.empty())
+    for (const std::size_t from : mended.from) noise.push_back(result.report.plane_noise[from]);
+  result.report.plane_noise = std::move(noise);
+  result.labels = labels_by(id_of, std::move(result.labels));
+  std::vector<std::string>& warnings = result.report.warnings;
+  warnings.insert(warnings.end(), mended.warnings.begin(), mended.warnings.end());
+  result.world = std::move(mended.world);
+  if (result.world.surfaces.empty())
+    throw Error(Cause::nothing_found,
+                fmt::format("none of the {} surfaces found can be kept: {}", id_of.size(),
+                            fmt::join(mended.warnings, "; ")));
+}
+
 // Adds the solids of what no surface explains.
 void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, StageLog& log,
                      ReconstructResult& result) {
@@ -311,6 +331,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                     cloud.points.size(), result.report.scale));
   if (result.report.noise == 0) result.report.noise = median_rms(found.surfaces);
   result.world = assemble_world(found.surfaces, find_frame(cloud, facings_of(found.surfaces)));
+  take(mend_surfaces(result.world), result);
   World& world = result.world;
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
     const CloudInWorld place(cloud, world.frame);
@@ -329,6 +350,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
                         [&] { return find_rooms(world, options.rooms); });
   world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
+  take(leave_out_invalid(world), result);
 
   result.replay = std::move(recorder).finish(world.frame, cloud.origin);
   ReconstructOptions used = options;

@@ -46,7 +46,8 @@ struct ReconstructResult {
 };
 
 // Makes a world of a scan. The same points and options give the same world, whatever the number of
-// threads and the order of the points. Throws nothing_found where the scan holds no plane.
+// threads and the order of the points. The world is valid: what is not and cannot be mended is left
+// out, with a warning. Throws nothing_found where the scan holds no plane.
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                               const Progress& progress = {});
 

@@ -97,22 +97,37 @@ Geometry offset(const Context& context, const Geometry& geometry, double distanc
 
 }  // namespace
 
-std::optional<std::string> why_invalid(const Rings& rings) {
+std::optional<Flaw> find_flaw(const Rings& rings) {
   const Context context;
   const Geometry polygon = polygon_of(context, rings);
-  if (!polygon) return "it is no ring";
+  if (!polygon) return Flaw{"it is no ring", std::nullopt};
   char* reason = nullptr;
   GEOSGeometry* location = nullptr;
   const char valid = GEOSisValidDetail_r(context.handle, polygon.get(), 0, &reason, &location);
   const Geometry at(location, Free{context.handle});
-  std::string text = reason ? reason : "unknown reason";
+  Flaw flaw{reason ? reason : "unknown reason", std::nullopt};
   if (reason) GEOSFree_r(context.handle, reason);
   if (valid == 1) return std::nullopt;
-  if (at) {
-    const Vec2 p = corners(context, at.get())[0];
-    text += fmt::format(" at ({:.3f}, {:.3f}) of its plane", p.x(), p.y());
-  }
-  return text;
+  if (at) flaw.at = corners(context, at.get())[0];
+  return flaw;
+}
+
+std::optional<std::string> why_invalid(const Rings& rings) {
+  const auto flaw = find_flaw(rings);
+  if (!flaw) return std::nullopt;
+  if (!flaw->at) return flaw->reason;
+  return fmt::format("{} at ({:.3f}, {:.3f}) of its plane", flaw->reason, flaw->at->x(),
+                     flaw->at->y());
+}
+
+std::vector<Rings> make_valid(const Rings& rings) {
+  const Context context;
+  const Geometry polygon = polygon_of(context, rings);
+  std::vector<Rings> result;
+  if (!polygon) return result;
+  const Geometry valid(GEOSMakeValid_r(context.handle, polygon.get()), Free{context.handle});
+  collect(context, valid.get(), result);
+  return result;
 }
 
 std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings) {

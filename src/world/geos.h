@@ -14,8 +14,16 @@ namespace scanworld::geos {
 // A polygon in the plane: the outer ring first, then its holes; orientation does not matter.
 using Rings = std::vector<std::vector<Vec2>>;
 
-// Why the rings are no valid polygon (crossing edges, a hole outside ...) and where; nothing where
-// they are one.
+// Why rings are no valid polygon: crossing edges, a hole outside ...
+struct Flaw {
+  std::string reason;
+  std::optional<Vec2> at;  // where that is known
+};
+
+// Nothing where they are one.
+std::optional<Flaw> find_flaw(const Rings& rings);
+
+// The same in words.
 std::optional<std::string> why_invalid(const Rings& rings);
 
 // The corners of the triangles of a constrained Delaunay triangulation of a valid polygon, each
@@ -28,6 +36,10 @@ struct Overlap {
   Vec2 inside = Vec2::Zero();
 };
 Overlap overlap_of(const Rings& a, const Rings& b);
+
+// The valid polygons that rings stand for, which may cross, touch or lie in each other: what is in
+// an odd number of them. Corners stay; new ones are where edges cross. Orientation as below.
+std::vector<Rings> make_valid(const Rings& rings);
 
 // The union of valid polygons. Here and below, outer rings of results are counter-clockwise, holes
 // clockwise; nothing where the library fails.

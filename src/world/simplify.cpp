@@ -54,7 +54,15 @@ bool is_small(const World& world, const Surface& surface, double size) {
   return extent_of(corners) < size;
 }
 
-// Removes vertices that nothing refers to.
+}  // namespace
+
+std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const Vec3& up) {
+  const OrientedBox box = upright_box(hull.vertices, up);
+  const Cylinder cylinder = upright_cylinder(hull.vertices, up);
+  if (M_PI * cylinder.radius * cylinder.radius * cylinder.height < box.size.prod()) return cylinder;
+  return box;
+}
+
 void drop_vertices(World& world) {
   std::vector<int> index(world.vertices.size(), -1);
   const auto each_loop = [&](auto visit) {
@@ -77,15 +85,6 @@ void drop_vertices(World& world) {
   each_loop([&](Loop& loop) {
     for (int& v : loop) v = index[static_cast<std::size_t>(v)];
   });
-}
-
-}  // namespace
-
-std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const Vec3& up) {
-  const OrientedBox box = upright_box(hull.vertices, up);
-  const Cylinder cylinder = upright_cylinder(hull.vertices, up);
-  if (M_PI * cylinder.radius * cylinder.radius * cylinder.height < box.size.prod()) return cylinder;
-  return box;
 }
 
 std::set<int> surface_ids(const World& world) {

@@ -21,6 +21,9 @@ World simplify(World world, const SimplifyOptions& options);
 // The upright box or cylinder, whichever holds less, around a hull.
 std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const Vec3& up);
 
+// Removes vertices that nothing refers to.
+void drop_vertices(World& world);
+
 // The ids of the surfaces of a world.
 std::set<int> surface_ids(const World& world);
 

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "../error.h"
+#include "../parallel.h"
+#include "assemble.h"
+#include "simplify.h"
+#include "surface_rings.h"
+#include "triangulate.h"
+#include "validate.h"
+
+namespace scanworld {
+
+namespace {
+
+constexpr double kNeck = 0.005;  // [m] where a polygon is narrower it is cut, if nothing else helps
+constexpr double kCrumb = 0.01;  // of the largest part's area; what is smaller is left out
+
+// A world of one surface.
+World alone(const World& world, const Surface& surface) {
+  World part{.frame = world.frame, .vertices = world.vertices, .surfaces = {surface}};
+  drop_vertices(part);
+  return part;
+}
+
+// Why a surface cannot be kept as it is.
+std::optional<std::string> fault_of(const World& world, const Surface& surface) {
+  const World part = alone(world, surface);
+  if (const auto reasons = validate(part); !reasons.empty()) return reasons[0];
+  try {
+    triangulate(part);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+// A reason without the name of the thing before it, which may be called otherwise in the end.
+std::string unnamed(const std::string& reason) {
+  const std::size_t colon = reason.find(": ");
+  return colon == std::string::npos ? reason : reason.substr(colon + 2);
+}
+
+std::string in_scan(const World& world, const Vec3& p) {
+  const Vec3 at = world.frame.to_scan(p);
+  return fmt::format("({:.3f}, {:.3f}, {:.3f})", at.x(), at.y(), at.z());
+}
+
+Vec3 middle_of(const World& world, const Loop& loop) {
+  Box3 box;
+  for (int v : loop) box.extend(world.vertices[static_cast<std::size_t>(v)]);
+  return box.center();
+}
+
+// Makes surfaces of the polygons in the plane of a broken one.
+class Mender {
+ public:
+  Mender(World& world, const Surface& broken) : world_(world), broken_(broken) {
+    std::erase_if(broken_.holes, [](const Loop& hole) { return hole.size() < 3; });
+    if (broken_.outer.size() < 3) return;
+    frame_ = rings_frame(world, broken_);
+    rings_ = rings_of(world, broken_);
+    name_corners(broken_.outer, rings_[0]);
+    for (std::size_t h = 0; h < broken_.holes.size(); ++h)
+      name_corners(broken_.holes[h], rings_[h + 1]);
+  }
+
+  // Where it is broken, or its middle.
+  Vec3 place() const {
+    if (rings_.empty()) return middle_of(world_, broken_.outer);
+    const auto flaw = geos::find_flaw(rings_);
+    return flaw && flaw->at ? frame_.to_space(*flaw->at) : middle_of(world_, broken_.outer);
+  }
+
+  // The largest first.
+  std::vector<Surface> mend() {
+    std::vector<Surface> sound;
+    if (rings_.empty()) return sound;
+    for (const geos::Rings& part : geos::make_valid(rings_))
+      if (!add(part, sound))
+        for (const geos::Rings& wide : geos::subtract(part, {}, kNeck)) add(wide, sound);
+    std::stable_sort(sound.begin(), sound.end(), [&](const Surface& a, const Surface& b) {
+      return area(world_, a) > area(world_, b);
+    });
+    std::erase_if(sound, [&](const Surface& s) {
+      return area(world_, s) < kCrumb * area(world_, sound[0]);
+    });
+    for (std::size_t k = 1; k < sound.size(); ++k) sound[k].support = {};
+    return sound;
+  }
+
+ private:
+  void name_corners(const Loop& loop, const std::vector<Vec2>& ring) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec3& at = world_.vertices[static_cast<std::size_t>(loop[k])];
+      if (std::abs(broken_.plane.signed_distance(at)) <= kPlanarTolerance)
+        vertex_at_[{ring[k].x(), ring[k].y()}] = loop[k];
+    }
+  }
+
+  // The corner that was there, or a new one.
+  int vertex(const Vec2& p) {
+    const auto [found, is_new] =
+        vertex_at_.try_emplace({p.x(), p.y()}, static_cast<int>(world_.vertices.size()));
+    if (is_new) {
+      const Vec3 at = frame_.to_space(p);
+      world_.vertices.push_back((at * 1e6).array().round() / 1e6);
+    }
+    return found->second;
+  }
+
+  bool add(const geos::Rings& rings, std::vector<Surface>& sound) {
+    Surface surface = broken_;
+    surface.holes.clear();
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      Loop loop;
+      for (const Vec2& p : rings[r]) loop.push_back(vertex(p));
+      (r == 0 ? surface.outer : surface.holes.emplace_back()) = std::move(loop);
+    }
+    if (fault_of(world_, surface)) return false;
+    sound.push_back(std::move(surface));
+    return true;
+  }
+
+  World& world_;
+  Surface broken_;
+  PlaneFrame frame_;
+  geos::Rings rings_;  // none where it has no area at all
+  std::map<std::pair<double, double>, int> vertex_at_;
+};
+
+Vec3 place_of(const World& world, const Surface& s) { return middle_of(world, s.outer); }
+Vec3 place_of(const World& world, const Opening& o) { return middle_of(world, o.loop); }
+Vec3 place_of(const World&, const Room& r) { return r.center.value_or(Vec3::Zero()); }
+Vec3 place_of(const World&, const OrientedBox& b) { return b.center; }
+Vec3 place_of(const World&, const Cylinder& c) { return c.center; }
+Vec3 place_of(const World&, const ConvexHull& h) {
+  return h.vertices.empty() ? Vec3(Vec3::Zero()) : h.vertices[0];
+}
+Vec3 place_of(const World&, const ConvexPrism& p) {
+  return p.base.empty() ? Vec3(Vec3::Zero()) : p.base[0];
+}
+template <typename Thing>  // an obstacle or a collider
+Vec3 place_of(const World& world, const Thing& thing) {
+  return std::visit([&](const auto& shape) { return place_of(world, shape); }, thing.shape);
+}
+Vec3 place_of(const World& world, const Door& d) {
+  for (const Opening& o : world.openings)
+    if (o.id == d.opening) return place_of(world, o);
+  return Vec3::Zero();
+}
+
+// Keeps the things of one kind that are valid beside what they refer to.
+template <typename Thing, typename Beside>
+void keep_valid(const World& world, std::vector<Thing> World::*things, const Beside& beside,
+                Mended& kept) {
+  for (const Thing& thing : world.*things) {
+    World trial = beside(thing);
+    (trial.*things) = {thing};
+    if (const auto reasons = validate(trial); reasons.empty())
+      (kept.world.*things).push_back(thing);
+    else
+      kept.warnings.push_back(fmt::format("{}; it is left out, at {} of the scan", reasons[0],
+                                          in_scan(world, place_of(world, thing))));
+  }
+}
+
+}  // namespace
+
+Mended mend_surfaces(World world) {
+  std::vector<std::optional<std::string>> faults(world.surfaces.size());
+  parallel_for(faults.size(),
+               [&](std::size_t i) { faults[i] = fault_of(world, world.surfaces[i]); });
+  Mended mended{.world = std::move(world)};
+  const std::vector<Surface> found = std::exchange(mended.world.surfaces, {});
+  std::vector<Surface> sound;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::vector<Surface> parts = {found[i]};
+    if (faults[i]) {
+      Mender mender(mended.world, found[i]);
+      const std::string place = in_scan(mended.world, mender.place());
+      parts = mender.mend();
+      mended.warnings.push_back(
+          parts.empty()
+              ? fmt::format("a surface of {} points is left out, at {} of the scan: {}",
+                            found[i].support.points, place, unnamed(*faults[i]))
+              : fmt::format("surface {} was mended into {} polygon{}, at {} of the scan: {}",
+                            sound.size(), parts.size(), parts.size() > 1 ? "s" : "", place,
+                            unnamed(*faults[i])));
+    }
+    for (Surface& part : parts) {
+      part.id = static_cast<int>(sound.size());
+      sound.push_back(std::move(part));
+      mended.from.push_back(i);
+    }
+  }
+  mended.world.surfaces = std::move(sound);
+  if (mended.warnings.empty()) return mended;
+  drop_vertices(mended.world);
+  classify(mended.world);
+  return mended;
+}
+
+Mended leave_out_invalid(World world) {
+  std::vector<std::size_t> all(world.surfaces.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (validate(world).empty()) return {std::move(world), {}, std::move(all)};
+
+  const World bare{.frame = world.frame, .vertices = world.vertices};
+  Mended kept{.world = bare};
+  kept.world.provenance = world.provenance;
+  const auto beside_nothing = [&](const auto&) { return bare; };
+  const auto beside_its_surface = [&](const auto& thing) {
+    World trial = bare;
+    if (const Surface* s = find_surface(kept.world, thing.surface)) trial.surfaces = {*s};
+    return trial;
+  };
+  keep_valid(world, &World::surfaces, beside_nothing, kept);
+  for (const Surface& s : kept.world.surfaces)
+    kept.from.push_back(static_cast<std::size_t>(find_surface(world, s.id) - world.surfaces.data()));
+  keep_valid(world, &World::openings, beside_its_surface, kept);
+  keep_valid(world, &World::colliders, beside_its_surface, kept);
+  keep_valid(world, &World::obstacles, beside_nothing, kept);
+  const std::set<int> ids = surface_ids(kept.world);
+  for (Room& room : world.rooms)
+    std::erase_if(room.surfaces, [&](int id) { return !ids.contains(id); });
+  const auto beside_all = [&](const auto&) {
+    World trial = bare;
+    trial.surfaces = kept.world.surfaces, trial.openings = kept.world.openings;
+    trial.rooms = kept.world.rooms;
+    return trial;
+  };
+  keep_valid(world, &World::rooms, beside_all, kept);
+  keep_valid(world, &World::doors, beside_all, kept);
+  drop_vertices(kept.world);
+  return kept;
+}
+
+}  // namespace scanworld
