@@ -30,6 +30,7 @@ constexpr const char* kViewExample = R"(Examples:
 The page also shows report.json, replay.json (build --record) and sim_check.json where these are beside
 world.json. docs/page.md tells what is in it.)";
 
+constexpr int kMaxDepth = 100;                              // of lists in JSON that the page shows
 constexpr const char* kPageMark = "The scanworld authors";  // that each page bears
 
 struct ViewRequest {
@@ -48,8 +49,16 @@ std::string read_json(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";
   const std::string text{std::istreambuf_iterator<char>(in), {}};
+  // Deeper lists than that would use up the stack where they are written.
+  const auto check_depth = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kMaxDepth)
+      throw Error(Cause::bad_input,
+                  fmt::format("{}: lists and objects lie more than {} deep in each other",
+                              file.string(), kMaxDepth));
+    return true;
+  };
   try {
-    return Json::parse(text).dump();
+    return Json::parse(text, check_depth).dump();
   } catch (const Json::exception& e) {
     throw Error(Cause::bad_input, file.string() + ": no JSON: " + e.what());
   }

@@ -26,6 +26,9 @@ using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 using Box3 = Eigen::AlignedBox3d;
 
+// [m] What is farther out is on no planet of ours, map projections included.
+inline constexpr double kFarthest = 1 << 30;
+
 // The box, larger by a margin to all sides.
 inline Box3 grown(const Box3& box, double margin) {
   return {box.min().array() - margin, box.max().array() + margin};

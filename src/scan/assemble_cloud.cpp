@@ -27,8 +27,7 @@ void for_each_part(const RowSource& source,
   });
 }
 
-constexpr double kFarthest = 1 << 30;  // [m] what is farther out is on no planet of ours
-constexpr double kBin = 512;           // [m] to which the origin is told
+constexpr double kBin = 512;  // [m] to which the origin is told
 constexpr std::size_t kBins = 2048;
 
 // How the coordinates lie on each axis: in bins from `low` on, and below it. Rows that are not

@@ -90,6 +90,10 @@ class PcdHeaderReader {
       header_.viewpoint.clear();
       for (double v = 0; words >> v;) header_.viewpoint.push_back(v);
       if (header_.viewpoint.size() != 7) fail("VIEWPOINT needs 7 numbers");
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!(std::abs(header_.viewpoint[k]) < kFarthest))
+          fail(fmt::format("the VIEWPOINT's {} is not within {:.0f} m of the origin",
+                           header_.viewpoint[k], kFarthest));
     } else {
       fail(fmt::format("'{}' is no PCD header line", key.substr(0, 40)));
     }
@@ -247,7 +251,7 @@ RowSource open_pcd(const std::filesystem::path& path) {
     const std::vector<double>& v = header.viewpoint;
     const bool is_default = v == std::vector<double>{0, 0, 0, 1, 0, 0, 0};
     const Vec3 position(v[0], v[1], v[2]);
-    if (position.allFinite() && (organised || !is_default)) rows.viewpoints.push_back(position);
+    if (organised || !is_default) rows.viewpoints.push_back(position);
   }
   return rows;
 }

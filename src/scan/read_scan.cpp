@@ -75,9 +75,11 @@ std::vector<Vec3> read_poses(const std::filesystem::path& path) {
                       lines.name(), lines.line_number(), v.size()));
     const std::size_t at = v.size() == 8 ? 1 : 0;
     poses.emplace_back(v[at], v[at + 1], v[at + 2]);
-    if (!poses.back().allFinite())
-      throw Error(Cause::bad_input,
-                  fmt::format("{}:{}: the pose is not finite", lines.name(), lines.line_number()));
+    if (!(poses.back().cwiseAbs().maxCoeff() < kFarthest))
+      throw Error(
+          Cause::bad_input,
+          fmt::format("{}:{}: the pose {} {} {} is not within {:.0f} m of the origin", lines.name(),
+                      lines.line_number(), v[at], v[at + 1], v[at + 2], kFarthest));
   }
   if (poses.empty()) throw Error(Cause::bad_input, lines.name() + ": holds no poses");
   return poses;

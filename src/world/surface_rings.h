@@ -13,20 +13,20 @@ inline PlaneFrame rings_frame(const World& world, const Surface& surface) {
   return frame_of(surface.plane, world.vertices[static_cast<std::size_t>(surface.outer[0])]);
 }
 
+// A loop in a frame of a plane. Its indices must be in range.
+inline std::vector<Vec2> ring_of(const World& world, const Loop& loop, const PlaneFrame& frame) {
+  std::vector<Vec2> points;
+  for (int index : loop)
+    points.push_back(frame.to_plane(world.vertices[static_cast<std::size_t>(index)]));
+  return points;
+}
+
 // The loops of a surface in the frame of its plane, the outer one first, vertex for vertex.
 // Their indices must be in range.
 inline geos::Rings rings_of(const World& world, const Surface& surface) {
-  const auto at = [&](int index) -> const Vec3& {
-    return world.vertices[static_cast<std::size_t>(index)];
-  };
   const PlaneFrame frame = rings_frame(world, surface);
-  const auto ring = [&](const Loop& loop) {
-    std::vector<Vec2> points;
-    for (int index : loop) points.push_back(frame.to_plane(at(index)));
-    return points;
-  };
-  geos::Rings rings = {ring(surface.outer)};
-  for (const Loop& hole : surface.holes) rings.push_back(ring(hole));
+  geos::Rings rings = {ring_of(world, surface.outer, frame)};
+  for (const Loop& hole : surface.holes) rings.push_back(ring_of(world, hole, frame));
   return rings;
 }
 

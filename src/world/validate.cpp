@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geos.h"
+#include "hull_volume.h"
 #include "surface_rings.h"
 
 namespace scanworld {
@@ -16,6 +17,7 @@ namespace scanworld {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;  // of a direction's length
+constexpr double kFlat = 1e-9;           // of the cube of a hull's size: what is no volume
 
 class Validator {
  public:
@@ -24,7 +26,7 @@ class Validator {
   std::vector<std::string> run() {
     check_frame();
     for (std::size_t i = 0; i < world_.vertices.size(); ++i)
-      if (!world_.vertices[i].allFinite()) report("vertex {} is not finite", i);
+      check_place(fmt::format("vertex {}", i), world_.vertices[i]);
     surface_ids_ = check_ids("surface", world_.surfaces);
     const std::set<int> openings = check_ids("opening", world_.openings);
     const std::set<int> rooms = check_ids("room", world_.rooms);
@@ -47,6 +49,7 @@ class Validator {
       if (!openings.count(d.opening)) report("door {}: there is no opening {}", i, d.opening);
       for (int id : d.rooms)
         if (!rooms.count(id)) report("door {}: there is no room {}", i, id);
+      if (d.rooms[0] == d.rooms[1]) report("door {}: joins room {} with itself", i, d.rooms[0]);
     }
     return std::move(reasons_);
   }
@@ -71,8 +74,24 @@ class Validator {
     if (!surface_ids_.count(id)) report("{}: there is no surface {}", name, id);
   }
 
+  // True where a place is in the world.
+  bool check_place(const std::string& name, const Vec3& p) {
+    if (!p.allFinite()) return report("{} is not finite", name), false;
+    if (const double far = p.cwiseAbs().maxCoeff(); far > kWorldReach)
+      return report("{} is {:.6g} m from the origin, more than {}", name, far, kWorldReach), false;
+    return true;
+  }
+
+  void check_size(const std::string& name, const char* what, double size) {
+    if (!(size > 0))
+      report("{}: the {} {} is not positive", name, what, size);
+    else if (size > 2 * kWorldReach)
+      report("{}: the {} {:.6g} is more than {} m", name, what, size, 2 * kWorldReach);
+  }
+
   void check_frame() {
-    if (!world_.frame.origin.allFinite()) report("frame: the origin is not finite");
+    if (!(world_.frame.origin.cwiseAbs().maxCoeff() < kFarthest))
+      report("frame: the origin is not within {:.0f} m", kFarthest);
     if (!is_unit(world_.frame.up)) report("frame: up is not of length 1");
     if (!is_unit(world_.frame.rotation)) report("frame: the rotation is not of length 1");
   }
@@ -87,7 +106,7 @@ class Validator {
     for (int id : r.surfaces) check_surface_id(name, id);
     if (r.area && !(*r.area > 0 && std::isfinite(*r.area)))
       report("{}: the area {} is not positive", name, *r.area);
-    if (r.center && !r.center->allFinite()) report("{}: the center is not finite", name);
+    if (r.center) check_place(name + ": the center", *r.center);
   }
 
   void check(const Surface& s) {
@@ -126,8 +145,8 @@ class Validator {
         report("{}: {} has the vertex {} twice", name, loop_name, index), sound = false;
       const Vec3& v = world_.vertices[static_cast<std::size_t>(index)];
       const double off = std::abs(plane.signed_distance(v));
-      if (!v.allFinite())
-        sound = false;
+      if (!v.allFinite() || v.cwiseAbs().maxCoeff() > kWorldReach)
+        sound = false;  // as told
       else if (off > kPlanarTolerance)
         report("{}: vertex {} of {} is {:.4f} m off the plane", name, index, loop_name, off),
             sound = false;
@@ -137,31 +156,37 @@ class Validator {
 
   void check(const Opening& o) {
     const std::string name = fmt::format("opening {}", o.id);
-    if (!(o.width > 0) || !(o.height > 0))
-      report("{}: the size {} x {} is not positive", name, o.width, o.height);
+    check_size(name, "width", o.width);
+    check_size(name, "height", o.height);
     const Surface* surface = find_surface(world_, o.surface);
     if (!surface) return check_surface_id(name, o.surface);
-    check_loop(name, "the loop", o.loop, surface->plane);
+    if (!check_loop(name, "the loop", o.loop, surface->plane)) return;
+    if (const auto why = geos::why_invalid({ring_of(world_, o.loop, frame_of(surface->plane))}))
+      report("{}: {}", name, *why);
   }
 
   void check_shape(const std::string& name, const OrientedBox& b) {
-    if (!b.center.allFinite()) report("{}: the center is not finite", name);
-    if (!(b.size.array() > 0).all() || !b.size.allFinite())
-      report("{}: the size {} {} {} is not positive", name, b.size.x(), b.size.y(), b.size.z());
+    check_place(name + ": the center", b.center);
+    for (double size : b.size) check_size(name, "size", size);
     if (!is_unit(b.rotation)) report("{}: the rotation is not of length 1", name);
   }
   void check_shape(const std::string& name, const ConvexHull& h) {
-    if (h.vertices.size() < 4) report("{}: the hull has {} vertices", name, h.vertices.size());
-    check_finite(name, h.vertices);
+    const std::size_t count = h.vertices.size();
+    if (count < 4) return report("{}: the hull has {} vertices", name, count);
+    Box3 box;
+    for (const Vec3& v : h.vertices) box.extend(v);
+    if (check_places(name, h.vertices) &&
+        !(hull_volume(h.vertices) > kFlat * std::pow(box.sizes().maxCoeff(), 3)))
+      report("{}: the hull of {} vertices has no volume", name, count);
   }
   void check_shape(const std::string& name, const Cylinder& c) {
-    if (!c.center.allFinite()) report("{}: the center is not finite", name);
-    if (!(c.radius > 0) || !(c.height > 0))
-      report("{}: the size {} x {} is not positive", name, c.radius, c.height);
+    check_place(name + ": the center", c.center);
+    check_size(name, "radius", c.radius);
+    check_size(name, "height", c.height);
   }
   void check_shape(const std::string& name, const ConvexPrism& p) {
-    if (p.base.size() < 3) report("{}: the base has {} vertices", name, p.base.size());
-    check_finite(name, p.base);
+    if (p.base.size() < 3) return report("{}: the base has {} vertices", name, p.base.size());
+    if (!check_places(name, p.base) || !check_place(name + ": the extrusion", p.extrusion)) return;
     if (!(p.extrusion.norm() > 0)) report("{}: the extrusion has no length", name);
     check_convex(name, p);
   }
@@ -182,9 +207,11 @@ class Validator {
         report("{}: the base is not convex at vertex {}", name, (i + 1) % n);
     }
   }
-  void check_finite(const std::string& name, const std::vector<Vec3>& points) {
+  bool check_places(const std::string& name, const std::vector<Vec3>& points) {
+    bool sound = true;
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (!points[i].allFinite()) report("{}: vertex {} is not finite", name, i);
+      sound &= check_place(fmt::format("{}: vertex {}", name, i), points[i]);
+    return sound;
   }
 
   const World& world_;
