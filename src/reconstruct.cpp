@@ -166,11 +166,13 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
   using namespace surface;
   Members members;
   std::optional<PatchRays> rays;
+  Vec3 up;
   std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
     members = group_points(result.labels, planes.size());
+    up = find_frame(cloud, facings_of(planes, members)).up;
     std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
     rays.emplace(found);
-    return face_free_side(std::move(found), *rays, cloud, members, options.facing);
+    return face_free_side(std::move(found), *rays, cloud, members, up, options.facing);
   });
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
                                           [&] { return find_seams(patches, options.seams); });
@@ -181,9 +183,6 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
     around.viewpoints = cloud.viewpoints;
     around.viewers = find_sole_viewers(around, *rays, cloud.viewpoints, options.gaps.through);
     rays.reset();
-    std::vector<Plane> faced;
-    for (const Patch& patch : patches) faced.push_back(patch.plane);
-    const Vec3 up = find_frame(cloud, facings_of(faced, members)).up;
     return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
   });
   const std::vector<SharedEdge> edges =

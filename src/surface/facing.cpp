@@ -40,43 +40,53 @@ std::vector<Vec3> places_on(const Patch& patch, int count) {
 
 class Judge {
  public:
-  Judge(const PatchRays& rays, const PointCloud& cloud, const FacingOptions& options)
+  Judge(const PatchRays& rays, const PointCloud& cloud, const Vec3& up,
+        const FacingOptions& options)
       : rays_(rays),
         cloud_(cloud),
+        up_(up),
         options_(options),
         directions_(directions_over(options.directions)) {}
 
-  bool is_from_behind(const Patch& patch, std::span<const std::uint32_t> members) const {
-    const std::vector<Vec3> places = places_on(patch, options_.places);
+  const std::vector<Vec3>& directions() const { return directions_; }
+
+  // The side that viewpoints or normals tell: more than 0 for the normal's, 0 for none.
+  double told_side(const Patch& patch, std::span<const std::uint32_t> members) const {
     int votes = 0;
-    for (const Vec3& place : places)
+    for (const Vec3& place : places_on(patch, options_.places))
       for (std::size_t v : find_viewers(rays_, cloud_.viewpoints, place, options_.margin, 1))
         votes += patch.plane.signed_distance(cloud_.viewpoints[v]) > 0 ? 1 : -1;
-    if (votes != 0) return votes < 0;
+    if (votes != 0 || cloud_.normals.empty()) return votes;
     std::int64_t along = 0;
-    if (!cloud_.normals.empty())
-      for (std::uint32_t i : members)
-        along += cloud_.normals[i].cast<double>().dot(patch.plane.normal) > 0 ? 1 : -1;
-    if (along != 0) return along < 0;
-    return free_space(patch, places, 1) < free_space(patch, places, -1);
+    for (std::uint32_t i : members) {
+      const double cosine = cloud_.normals[i].cast<double>().dot(patch.plane.normal);
+      // Normals that were never set are zero.
+      along += cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
+    }
+    const double lead = static_cast<double>(along) / static_cast<double>(members.size());
+    return std::abs(lead) >= options_.min_lead ? lead : 0;
+  }
+
+  // How far one looks to both sides.
+  Outlook look(const Patch& patch) const {
+    Outlook outlook{.places = places_on(patch, options_.places)};
+    for (std::size_t side : {0u, 1u})
+      for (const Vec3& place : outlook.places)
+        for (const Vec3& d : directions_) {
+          const Vec3 way = d.x() * patch.frame.u + d.y() * patch.frame.v +
+                           (side == 0 ? d.z() : -d.z()) * patch.plane.normal;
+          if (const auto hit = rays_.cast(place, way, 1e4, kNear))
+            outlook.way[side] += std::min(hit->distance, options_.horizon);
+          else
+            outlook.to_sky[side] += way.dot(up_) > 0;
+        }
+    return outlook;
   }
 
  private:
-  // [m] how far one looks from places on a patch to one of its sides, all rays together.
-  double free_space(const Patch& patch, const std::vector<Vec3>& places, double side) const {
-    double sum = 0;
-    for (const Vec3& place : places)
-      for (const Vec3& d : directions_) {
-        const Vec3 way =
-            d.x() * patch.frame.u + d.y() * patch.frame.v + side * d.z() * patch.plane.normal;
-        if (const auto hit = rays_.cast(place, way, 1e4, kNear))
-          sum += std::min(hit->distance, options_.horizon);
-      }
-    return sum;
-  }
-
   const PatchRays& rays_;
   const PointCloud& cloud_;
+  const Vec3& up_;
   const FacingOptions& options_;
   const std::vector<Vec3> directions_;
 };
@@ -108,12 +118,28 @@ Patch flipped(const Patch& patch) {
 }
 
 std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& rays,
-                                  const PointCloud& cloud, const Members& members,
+                                  const PointCloud& cloud, const Members& members, const Vec3& up,
                                   const FacingOptions& options) {
-  const Judge judge(rays, cloud, options);
+  const Judge judge(rays, cloud, up, options);
+  std::vector<Outlook> outlooks(patches.size());
+  std::vector<std::uint8_t> told_behind(patches.size());
   parallel_for(patches.size(), [&](std::size_t k) {
-    if (!patches[k].hit.bits.empty() && judge.is_from_behind(patches[k], members.of(k)))
-      patches[k] = flipped(patches[k]);
+    if (patches[k].hit.bits.empty()) return;
+    const double told = judge.told_side(patches[k], members.of(k));
+    told_behind[k] = told < 0;
+    if (told != 0)
+      outlooks[k].is_told = true;
+    else
+      outlooks[k] = judge.look(patches[k]);
+  });
+  // What is told is turned at once, so that it tells of the others.
+  parallel_for(patches.size(), [&](std::size_t k) {
+    if (told_behind[k]) patches[k] = flipped(patches[k]);
+  });
+  const std::vector<std::uint8_t> turned =
+      find_turned(patches, outlooks, rays, judge.directions(), up, options.horizon, options.sky);
+  parallel_for(patches.size(), [&](std::size_t k) {
+    if (turned[k]) patches[k] = flipped(patches[k]);
   });
   return patches;
 }

@@ -2,26 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "open_sky.h"
 #include "patch_rays.h"
 
 namespace scanworld::surface {
 
 struct FacingOptions {
-  int places = 16;       // of a patch that are looked from
-  int directions = 16;   // from each place to each side
-  double horizon = 4;    // [m] what is farther counts as so far
-  double margin = 0.05;  // [m] before a place, where a line of sight may meet something
+  int places = 16;        // of a patch that are looked from
+  int directions = 16;    // from each place to each side
+  double horizon = 4;     // [m] what is farther counts as so far
+  double margin = 0.05;   // [m] before a place, where a line of sight may meet something
+  double min_lead = 0.2;  // share of a patch's points by which normals must prefer one side
+  SkyOptions sky;         // where neither viewpoints nor normals tell
 };
 
 // The patch with its normal the other way.
 Patch flipped(const Patch& patch);
 
 // Turns the patches' normals to the free side: to the viewpoints that have seen most places; where
-// none is known, as most normals of the points; where there are none either, to the side with more
-// free space before other patches. On that side one looks far before something is met; inside a
-// wall or a cupboard one does not, and outside of what was scanned nothing is met at all.
+// none is known, as most normals of the points, those that are set; where there are none either, to
+// the side with more free space before other patches. On that side one looks far before something
+// is met; inside a wall or a cupboard one does not, and outside of what was scanned nothing is met
+// at all. Out of doors the ground and the sky tell, see find_turned().
 std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& rays,
-                                  const PointCloud& cloud, const Members& members,
+                                  const PointCloud& cloud, const Members& members, const Vec3& up,
                                   const FacingOptions& options = {});
 
 }  // namespace scanworld::surface
