@@ -167,21 +167,29 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
   Members members;
   std::optional<PatchRays> rays;
   Vec3 up;
+  std::vector<Vec3> viewpoints;
   std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
     members = group_points(result.labels, planes.size());
     up = find_frame(cloud, facings_of(planes, members)).up;
     std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
     rays.emplace(found);
-    return face_free_side(std::move(found), *rays, cloud, members, up, options.facing);
+    Faced faced = face_free_side(std::move(found), *rays, cloud, members, up, options.facing);
+    viewpoints = std::move(faced.viewpoints);
+    return std::move(faced.patches);
   });
+  if (const std::size_t blind = cloud.viewpoints.size() - viewpoints.size(); blind > 0)
+    result.report.warnings.push_back(fmt::format(
+        "{} of {} scanner positions are left out: no lines of sight go from there to the points, "
+        "but through the backs of surfaces",
+        blind, cloud.viewpoints.size()));
   const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
                                           [&] { return find_seams(patches, options.seams); });
   const std::vector<std::vector<CutLine>> lines = lines_of(patches, seams, options.seams);
   Surroundings around;
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
     around = find_around();
-    around.viewpoints = cloud.viewpoints;
-    around.viewers = find_sole_viewers(around, *rays, cloud.viewpoints, options.gaps.through);
+    around.viewpoints = viewpoints;
+    around.viewers = find_sole_viewers(around, *rays, viewpoints, options.gaps.through);
     rays.reset();
     return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
   });
@@ -320,7 +328,8 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   Recorder recorder(options.record);
   StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 24);
   Found found = options.method == Method::thesis
-                    ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder), {}}
+                    ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder),
+                            {.viewpoints = cloud.viewpoints}}
                     : find_by_rival(cloud, options, log, result, recorder);
   drop_degenerate(found.surfaces, result);
   if (found.surfaces.empty())
@@ -335,8 +344,9 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
     const CloudInWorld place(cloud, world.frame);
     std::vector<Opening> openings = find_openings(world, sight_lines_of(found.around, place));
-    return flag_glass(world, std::move(openings), places_of(found.around, place),
-                      place.viewpoints());
+    std::vector<Vec3> viewpoints;
+    for (const Vec3& v : found.around.viewpoints) viewpoints.push_back(place.to_world(v));
+    return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints);
   });
   found = {};
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "../parallel.h"
 
@@ -50,18 +51,13 @@ class Judge {
 
   const std::vector<Vec3>& directions() const { return directions_; }
 
-  // The side that viewpoints or normals tell: more than 0 for the normal's, 0 for none.
+  // The side that normals tell: more than 0 for the patch's normal's, 0 for none.
   double told_side(const Patch& patch, std::span<const std::uint32_t> members) const {
-    int votes = 0;
-    for (const Vec3& place : places_on(patch, options_.places))
-      for (std::size_t v : find_viewers(rays_, cloud_.viewpoints, place, options_.margin, 1))
-        votes += patch.plane.signed_distance(cloud_.viewpoints[v]) > 0 ? 1 : -1;
-    if (votes != 0 || cloud_.normals.empty()) return votes;
+    if (cloud_.normals.empty()) return 0;
     std::int64_t along = 0;
     for (std::uint32_t i : members) {
       const double cosine = cloud_.normals[i].cast<double>().dot(patch.plane.normal);
-      // Normals that were never set are zero.
-      along += cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
+      along += cosine > 0 ? 1 : cosine < 0 ? -1 : 0;  // one that was never set is zero
     }
     const double lead = static_cast<double>(along) / static_cast<double>(members.size());
     return std::abs(lead) >= options_.min_lead ? lead : 0;
@@ -117,24 +113,22 @@ Patch flipped(const Patch& patch) {
   return other;
 }
 
-std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& rays,
-                                  const PointCloud& cloud, const Members& members, const Vec3& up,
-                                  const FacingOptions& options) {
+namespace {
+
+// To the side that normals tell, or else rays, the ground and the sky.
+std::vector<Patch> face_by_rays(std::vector<Patch> patches, const PatchRays& rays,
+                                const PointCloud& cloud, const Members& members, const Vec3& up,
+                                const FacingOptions& options) {
   const Judge judge(rays, cloud, up, options);
   std::vector<Outlook> outlooks(patches.size());
-  std::vector<std::uint8_t> told_behind(patches.size());
   parallel_for(patches.size(), [&](std::size_t k) {
     if (patches[k].hit.bits.empty()) return;
     const double told = judge.told_side(patches[k], members.of(k));
-    told_behind[k] = told < 0;
+    if (told < 0) patches[k] = flipped(patches[k]);
     if (told != 0)
       outlooks[k].is_told = true;
     else
       outlooks[k] = judge.look(patches[k]);
-  });
-  // What is told is turned at once, so that it tells of the others.
-  parallel_for(patches.size(), [&](std::size_t k) {
-    if (told_behind[k]) patches[k] = flipped(patches[k]);
   });
   const std::vector<std::uint8_t> turned =
       find_turned(patches, outlooks, rays, judge.directions(), up, options.horizon, options.sky);
@@ -142,6 +136,63 @@ std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& r
     if (turned[k]) patches[k] = flipped(patches[k]);
   });
   return patches;
+}
+
+// How many places on patches have a free line to a viewpoint.
+struct Sight {
+  int before = 0, behind = 0;  // the patch
+};
+
+// What the viewpoints near a patch see of it.
+std::map<std::size_t, Sight> sights_of(const Patch& patch, const PatchRays& rays,
+                                       const std::vector<Vec3>& viewpoints,
+                                       const FacingOptions& options) {
+  std::map<std::size_t, Sight> sights;
+  for (const Vec3& place : places_on(patch, options.places))
+    for (std::size_t v : free_viewers(rays, viewpoints, place, options.margin, viewpoints.size()))
+      ++(patch.plane.signed_distance(viewpoints[v]) > 0 ? sights[v].before : sights[v].behind);
+  return sights;
+}
+
+// The viewpoints, but for those that see patches from behind for the most part.
+std::vector<Vec3> find_seeing(const std::vector<Patch>& patches, const PatchRays& rays,
+                              const std::vector<Vec3>& viewpoints, const FacingOptions& options) {
+  std::vector<std::map<std::size_t, Sight>> sights(patches.size());
+  parallel_for(patches.size(), [&](std::size_t k) {
+    sights[k] = sights_of(patches[k], rays, viewpoints, options);
+  });
+  std::vector<Sight> sums(viewpoints.size());
+  for (const auto& of_patch : sights)
+    for (const auto& [v, sight] : of_patch)
+      sums[v].before += sight.before, sums[v].behind += sight.behind;
+  std::vector<Vec3> seeing;
+  for (std::size_t v = 0; v < viewpoints.size(); ++v)
+    if (sums[v].behind <= options.max_behind * sums[v].before) seeing.push_back(viewpoints[v]);
+  return seeing;
+}
+
+std::vector<Patch> face_viewpoints(std::vector<Patch> patches, const PatchRays& rays,
+                                   const std::vector<Vec3>& viewpoints,
+                                   const FacingOptions& options) {
+  parallel_for(patches.size(), [&](std::size_t k) {
+    int votes = 0;
+    for (const Vec3& place : places_on(patches[k], options.places))
+      for (std::size_t v : find_viewers(rays, viewpoints, place, options.margin, 1))
+        votes += patches[k].plane.signed_distance(viewpoints[v]) > 0 ? 1 : -1;
+    if (votes < 0) patches[k] = flipped(patches[k]);
+  });
+  return patches;
+}
+
+}  // namespace
+
+Faced face_free_side(std::vector<Patch> patches, const PatchRays& rays, const PointCloud& cloud,
+                     const Members& members, const Vec3& up, const FacingOptions& options) {
+  Faced faced;
+  faced.patches = face_by_rays(std::move(patches), rays, cloud, members, up, options);
+  faced.viewpoints = find_seeing(faced.patches, rays, cloud.viewpoints, options);
+  faced.patches = face_viewpoints(std::move(faced.patches), rays, faced.viewpoints, options);
+  return faced;
 }
 
 }  // namespace scanworld::surface

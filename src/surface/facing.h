@@ -13,19 +13,26 @@ struct FacingOptions {
   double horizon = 4;     // [m] what is farther counts as so far
   double margin = 0.05;   // [m] before a place, where a line of sight may meet something
   double min_lead = 0.2;  // share of a patch's points by which normals must prefer one side
-  SkyOptions sky;         // where neither viewpoints nor normals tell
+  double max_behind = 2;  // places seen from behind for each seen from before, of a viewpoint
+  SkyOptions sky;         // where normals do not tell
 };
 
 // The patch with its normal the other way.
 Patch flipped(const Patch& patch);
 
-// Turns the patches' normals to the free side: to the viewpoints that have seen most places; where
-// none is known, as most normals of the points, those that are set; where there are none either, to
-// the side with more free space before other patches. On that side one looks far before something
-// is met; inside a wall or a cupboard one does not, and outside of what was scanned nothing is met
-// at all. Out of doors the ground and the sky tell, see find_turned().
-std::vector<Patch> face_free_side(std::vector<Patch> patches, const PatchRays& rays,
-                                  const PointCloud& cloud, const Members& members, const Vec3& up,
-                                  const FacingOptions& options = {});
+// Patches whose normals point to the free side, and what of the viewpoints helped.
+struct Faced {
+  std::vector<Patch> patches;
+  std::vector<Vec3> viewpoints;  // those of the cloud from where it can have been seen
+};
+
+// Turns the patches' normals to the free side: as most normals of the points, those that are set;
+// where there are none, to the side with more free space before other patches. On that side one
+// looks far before something is met; inside a wall or a cupboard one does not, and outside of what
+// was scanned nothing is met at all. Out of doors the ground and the sky tell, see find_turned().
+// At last to the viewpoints that have seen most places. A viewpoint that sees patches from behind
+// for the most part, as the zero that was never set does in map coordinates, does not count.
+Faced face_free_side(std::vector<Patch> patches, const PatchRays& rays, const PointCloud& cloud,
+                     const Members& members, const Vec3& up, const FacingOptions& options = {});
 
 }  // namespace scanworld::surface

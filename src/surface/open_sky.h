@@ -19,7 +19,7 @@ struct SkyOptions {
 // Of each patch, as it is turned now: whether it is told by more than rays, and what is free on the
 // side that its normal points to and on the other.
 struct Outlook {
-  bool is_told = false;         // by viewpoints or normals
+  bool is_told = false;         // by normals
   std::array<double, 2> way{};  // [m] that one looks, all ways together
   std::array<int, 2> to_sky{};  // ways that go up and meet nothing
   std::vector<Vec3> places;     // on the patch

@@ -69,10 +69,9 @@ bool PatchRays::is_free(const Vec3& from, const Vec3& to, double margin) const {
   return length <= margin || !cast(from, (to - from) / length, length - margin);
 }
 
-std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+std::vector<std::size_t> free_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
                                       const Vec3& place, double margin, std::size_t most) {
-  constexpr std::size_t kTries = 4;  // those that are farther hardly saw it
-  if (viewpoints.size() == 1) return {0};
+  constexpr std::size_t kTries = 4;
   std::vector<std::size_t> order(viewpoints.size()), viewers;
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto tried = order.begin() + static_cast<std::ptrdiff_t>(std::min(kTries, order.size()));
@@ -82,6 +81,12 @@ std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<V
   for (auto v = order.begin(); v != tried && viewers.size() < most; ++v)
     if (rays.is_free(viewpoints[*v], place, margin)) viewers.push_back(*v);
   return viewers;
+}
+
+std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                                      const Vec3& place, double margin, std::size_t most) {
+  if (viewpoints.size() == 1) return {0};
+  return free_viewers(rays, viewpoints, place, margin, most);
 }
 
 }  // namespace scanworld::surface

@@ -32,8 +32,13 @@ class PatchRays {
   std::unique_ptr<MeshRays> rays_;
 };
 
-// The viewpoints that may have seen a place, the nearest first and no more than `most` (indices):
-// those of the four nearest that have a free line to it. A single one is taken to have seen all.
+// The viewpoints with a free line to a place, the nearest first and no more than `most` (indices),
+// of the four nearest: those that are farther hardly saw it.
+std::vector<std::size_t> free_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                                      const Vec3& place, double margin, std::size_t most);
+
+// The viewpoints that may have seen a place, as free_viewers(). A single one is taken to have seen
+// all.
 std::vector<std::size_t> find_viewers(const PatchRays& rays, const std::vector<Vec3>& viewpoints,
                                       const Vec3& place, double margin, std::size_t most);
 

@@ -179,6 +179,10 @@ OptionList list_options(SurfaceOptions& o) {
        "before a place, where a line of sight may meet something", 0},
       {"surface.facing.min_lead", &o.facing.min_lead, "",
        "share of a surface's points by which normals must prefer one side", 0, 1},
+      {"surface.facing.max_behind", &o.facing.max_behind, "",
+       "places that a viewpoint sees from behind, for each that it sees from before, else it does "
+       "not count",
+       0},
       {"surface.sky.level", &o.facing.sky.level, "",
        "cosine off upright of ground, roofs and ceilings; steeper is a wall", 0, 1},
       {"surface.sky.min_lead", &o.facing.sky.min_lead, "",

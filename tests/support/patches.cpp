@@ -19,7 +19,7 @@ int LabelledScan::add(const Vec3& corner, const Vec3& a, const Vec3& b, int plan
 std::vector<Patch> LabelledScan::patches() const {
   std::vector<Patch> found = find_patches(cloud, members(), planes, 0.04);
   const PatchRays rays(found);
-  return face_free_side(std::move(found), rays, cloud, members(), Vec3::UnitZ());
+  return face_free_side(std::move(found), rays, cloud, members(), Vec3::UnitZ()).patches;
 }
 
 std::vector<Patch> LabelledScan::weighed_patches() const {
