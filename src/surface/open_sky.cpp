@@ -51,7 +51,7 @@ class SkyLooks {
       return looks;
     }
     std::size_t open = 0;
-    for (const Vec3& place : places) open += meet(place, up_).patch < 0;
+    for (const Vec3& place : places) open += !rays_.cast(place, up_, kFar, options_.layers);
     looks.is_open = 2 * open >= places.size();
     if (!looks.is_open) return looks;
     const double down = patch.plane.normal.dot(up_) > 0 ? -1 : 1;

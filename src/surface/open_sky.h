@@ -13,6 +13,7 @@ struct SkyOptions {
   double level = 0.5;       // cosine off upright of ground, roofs and ceilings; steeper is a wall
   double min_lead = 0.3;    // share of a wall's places by which one side must be free more often
   double headroom = 1.8;    // [m] nobody looks at what is lower over a floor from below
+  double layers = 0.5;      // [m] what is no higher over a patch is more of it, and hides no sky
   double min_walled = 0.1;  // share of the ways from below a ceiling that meet the walls of a room
 };
 

@@ -189,6 +189,8 @@ OptionList list_options(SurfaceOptions& o) {
        "share of a wall's places by which one side must be free more often", 0, 1},
       {"surface.sky.headroom", &o.facing.sky.headroom, "m",
        "nobody looks at what is lower over a floor from below", 0},
+      {"surface.sky.layers", &o.facing.sky.layers, "m",
+       "what is no higher over a surface is more of it, and hides no sky", 0},
       {"surface.sky.min_walled", &o.facing.sky.min_walled, "",
        "of the ways from below a ceiling that meet the walls of a room", 0, 1},
       {"surface.gaps.shadow_depth", &o.gaps.shadow_depth, "m",
