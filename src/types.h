@@ -91,7 +91,7 @@ inline PlaneFrame upright_frame(const Plane& plane, const Vec3& up, const Vec3& 
 // A scan. Every point is finite.
 struct PointCloud {
   std::vector<Vec3f> points;     // relative to `origin`
-  std::vector<Vec3f> normals;    // unit vectors; empty, or one for each point
+  std::vector<Vec3f> normals;    // unit vectors, or zero where unset; empty, or one for each point
   std::vector<Color> colors;     // empty, or one for each point
   Vec3 origin = Vec3::Zero();    // [m] what was subtracted from the coordinates in the file
   std::vector<Vec3> viewpoints;  // scanner positions relative to `origin`, where they are known

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <optional>
 
 #include "../error.h"
@@ -137,6 +138,24 @@ RowSource chain(const std::vector<RowSource>& sources) {
   return all;
 }
 
+constexpr double kSetShare = 0.5;  // of the normals that must be set for any to say something
+
+// Normals that were never set, which are zero or not finite, become zero; where most of them are,
+// there are none.
+void drop_unset(std::vector<Vec3f>& normals) {
+  std::vector<std::size_t> set(part_count(normals.size(), kPointsPerPart));
+  parallel_for(set.size(), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, normals.size(), kPointsPerPart);
+    for (std::size_t i = begin; i < end; ++i)
+      if (normals[i].allFinite() && !normals[i].isZero(0))
+        ++set[part];
+      else
+        normals[i].setZero();
+  });
+  const std::size_t all = std::accumulate(set.begin(), set.end(), std::size_t{0});
+  if (static_cast<double>(all) < kSetShare * static_cast<double>(normals.size())) normals = {};
+}
+
 // Fills a cloud from the rows of all sources.
 class Assembler {
  public:
@@ -155,6 +174,7 @@ class Assembler {
     if (cloud_.skipped.size() == source_.rows()) fail_without_points();
     if (!cloud_.skipped.empty())
       close_gaps(cloud_.points), close_gaps(cloud_.normals), close_gaps(cloud_.colors);
+    drop_unset(cloud_.normals);
     for (const RowSource& each : sources_)
       for (const Vec3& viewpoint : each.viewpoints)
         cloud_.viewpoints.push_back(viewpoint - cloud_.origin);

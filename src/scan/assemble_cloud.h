@@ -11,7 +11,8 @@ namespace scanworld {
 // Makes one cloud of one or more files: leaves out rows that are not finite, and where coordinates
 // are so large that float would lose them, moves the origin into the middle of the scan
 // (component-wise median, in steps of 512 m). Throws bad_input where no row is finite. The origin
-// does not depend on the order of the rows. Attributes that not all sources have are left out.
+// does not depend on the order of the rows. Attributes that not all sources have are left out, and
+// so are normals that for the most part were never set: zero or not finite.
 PointCloud assemble_cloud(const std::vector<RowSource>& sources);
 
 }  // namespace scanworld
