@@ -116,3 +116,17 @@ TEST_CASE("incomplete or repeated columns are not used") {
                           }),
                  "f.csv: the columns have no 'y'"));
 }
+
+TEST_CASE("normals that were never set are none; a few of them are zero") {
+  Rows rows = rows_of(std::vector<Vec3>(10, Vec3(1, 2, 3)));
+  rows.normals.assign(10, Vec3f::UnitZ());
+  rows.normals[3] = Vec3f::Zero(), rows.normals[7] = Vec3f::Constant(NAN);
+  const PointCloud some = assemble_cloud({rows_in_memory("a", rows)});
+  REQUIRE(some.normals.size() == 10);
+  for (std::size_t i : {3u, 7u}) CHECK(some.normals[i].isZero(0));
+  CHECK(some.normals[0] == Vec3f::UnitZ());
+  for (float unset : {0.0f, NAN}) {
+    rows.normals.assign(10, Vec3f::Constant(unset));
+    CHECK(assemble_cloud({rows_in_memory("a", rows)}).normals.empty());
+  }
+}
