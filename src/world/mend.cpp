@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "../error.h"
 #include "../parallel.h"
@@ -21,7 +22,7 @@ namespace scanworld {
 namespace {
 
 constexpr double kNeck = 0.005;  // [m] where a polygon is narrower it is cut, if nothing else helps
-constexpr double kCrumb = 0.01;  // of the largest part's area; what is smaller is left out
+constexpr double kLeastPart = 0.01;  // of the largest part's area; what is smaller is left out
 
 // A world of one surface.
 World alone(const World& world, const Surface& surface) {
@@ -90,7 +91,7 @@ class Mender {
       return area(world_, a) > area(world_, b);
     });
     std::erase_if(sound, [&](const Surface& s) {
-      return area(world_, s) < kCrumb * area(world_, sound[0]);
+      return area(world_, s) < kLeastPart * area(world_, sound[0]);
     });
     for (std::size_t k = 1; k < sound.size(); ++k) sound[k].support = {};
     return sound;
