@@ -40,7 +40,7 @@ TEST_CASE("poses are read with three and with eight numbers a line") {
   };
   CHECK(contains(error("1 2 3\n1 2\n"), "poses.txt:2:"));
   CHECK(contains(error("1 2 north\n"), "'north'"));
-  CHECK(contains(error("1 2 nan\n"), "finite"));
+  CHECK(contains(error("1 2 nan\n"), "not within"));
   CHECK(contains(error("# nothing\n"), "no poses"));
 }
 

@@ -90,7 +90,7 @@ Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering c,
       if (!reaches[a].intersects(reaches[b]) || joiner.find(a) == joiner.find(b)) continue;
       const Cluster &p = joiner.whole(a), &q = joiner.whole(b);
       if (std::abs(p.fit.plane.normal.dot(q.fit.plane.normal)) < kParallel ||
-          joint_price(p, q, scale, options.max_rms) > 1)
+          joint_price(p, q, scale, options.max_rms, Meeting::apart) > 1)
         continue;
       const bool from_a = members[a].size() < members[b].size();
       const std::size_t from = from_a ? a : b, other = from_a ? b : a;

@@ -58,9 +58,25 @@ bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
   const double seen = 0.6 * static_cast<double>(sites) * scale.voxel * scale.voxel;
   const double noise = scale.noise_at(cluster.fit.centroid);
   if (seen < options.min_area || area < std::pow(options.area_noise * noise, 2)) return true;
-  if (std::sqrt(12 * cluster.fit.variance[1]) < options.min_width * scale.voxel) return true;
+  if (std::sqrt(12 * cluster.fit.variance[1]) <
+      std::max(options.min_width * scale.voxel, options.min_breadth))
+    return true;
   return n < options.sparse_points &&
          n * scale.spacing * scale.spacing < options.min_density * area;
+}
+
+// The square of what the points of a cluster are off its plane where it is as flat as the scan's
+// surfaces are [m2].
+double expected_square(const Cluster& cluster, const Scale& scale) {
+  return scale.variance_at(cluster.fit.centroid) +
+         std::pow(scale.flatness.bend_at(extent_of(cluster.fit)), 2);
+}
+
+// What is soft or ragged: leaves, cushions, cables.
+bool is_rough(const Cluster& cluster, const Scale& scale, const EvidenceOptions& options) {
+  return area_of(cluster) <= options.small_area &&
+         cluster.fit.variance[0] >
+             options.max_roughness * options.max_roughness * expected_square(cluster, scale);
 }
 
 bool is_bent(const Grid& grid, const std::vector<std::uint32_t>& sites, const Cluster& cluster,
@@ -70,11 +86,9 @@ bool is_bent(const Grid& grid, const std::vector<std::uint32_t>& sites, const Cl
   // A parabola over a length l has the rms k l^2 / (8 * 3.35).
   const double square_length = 12 * cluster.fit.variance[2];
   const double curvature = 8 * 3.35 * bend.rms / square_length;
-  const double bent = std::sqrt(scale.variance_at(cluster.fit.centroid) +
-                                std::pow(scale.flatness.bend_at(extent_of(cluster.fit)), 2));
   return (curvature > options.min_curvature || bend.rms > options.high_bend) &&
          bend.share > options.bend_share + options.bend_chance / cluster.moments.n &&
-         bend.rms > options.bend_height * bent;
+         bend.rms > options.bend_height * std::sqrt(expected_square(cluster, scale));
 }
 
 // For each cluster, how many of its points larger ones that are next to them explain as well.
@@ -141,6 +155,7 @@ Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Sc
   parallel_for(c.clusters.size(), [&](std::size_t k) {
     const Cluster& cluster = c.clusters[k];
     drop[k] = is_too_small(cluster, members[k].size(), scale, options) ||
+              is_rough(cluster, scale, options) ||
               explained[k] > options.explained_share * cluster.moments.n ||
               is_bent(grid, members[k], cluster, scale, options);
   });

@@ -12,7 +12,9 @@ struct EvidenceOptions {
   double min_points = 60;
   double min_area = 0.04;         // [m2]
   double area_noise = 18;         // and the square of this many times the noise
-  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge
+  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge,
+  double min_breadth = 0.095;     // [m] or rims of things
+  double max_roughness = 1.3;     // [noise and bend] rms of the points off a small one
   double min_density = 0.1;       // points where the spacing of the scan leads to expect one
   double sparse_points = 300;     // clusters with so many may be less dense
   double explained_share = 0.7;   // of the points that larger clusters next to them explain as well

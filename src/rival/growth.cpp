@@ -90,7 +90,7 @@ class Grower {
   }
   void fit_plane() {
     cluster_.fit = fit(cluster_.moments);
-    bend_ = square_bend(cluster_.fit, scale_);
+    bend_ = std::pow(scale_.flatness.bend_at(extent_of(cluster_.fit)), 2);
     normal_ = cluster_.fit.plane.normal.cast<float>();
   }
 

@@ -6,17 +6,20 @@
 
 namespace scanworld::rival {
 
-double square_limit(const Cluster& a, const Cluster& b, double extent, const Scale& scale,
+double square_limit(const Cluster& a, const Cluster& b, double bend, const Scale& scale,
                     double max_rms) {
   const double noise = std::max(scale.noise_at(a.fit.centroid), scale.noise_at(b.fit.centroid));
-  const double bend = scale.flatness.limit_at(extent);
   return max_rms * max_rms * (noise * noise + bend * bend);
 }
 
-double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms) {
+double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms,
+                   Meeting meeting) {
   const MomentFit joint = fit(a.moments + b.moments);
+  const double extent = extent_of(joint);
+  const double bend = meeting == Meeting::smooth ? scale.flatness.limit_at(extent)
+                                                 : scale.flatness.bend_at(extent);
   return std::max(a.moments.mean_square(joint.plane), b.moments.mean_square(joint.plane)) /
-         square_limit(a, b, extent_of(joint), scale, max_rms);
+         square_limit(a, b, bend, scale, max_rms);
 }
 
 void Joiner::join(std::size_t a, std::size_t b) {

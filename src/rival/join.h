@@ -8,13 +8,18 @@
 
 namespace scanworld::rival {
 
-// The square of `max_rms` times the noise where two clusters are, the larger of the two [m2].
-double square_limit(const Cluster& a, const Cluster& b, double extent, const Scale& scale,
+// How two clusters lie to each other: what goes on into the other without a step may bend more.
+enum class Meeting { smooth, apart };
+
+// The square of `max_rms` times what points are off the plane of two clusters: by the noise where
+// they are, the larger of the two, and by a bend [m2].
+double square_limit(const Cluster& a, const Cluster& b, double bend, const Scale& scale,
                     double max_rms);
 
 // The mean square of two clusters' points about the plane in common, the larger of the two, over
 // that limit: under 1 where one plane serves both.
-double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms);
+double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms,
+                   Meeting meeting);
 
 // Joins clusters, each time into that with the lower number, and fits what they make together.
 // Sites keep their labels until the end.

@@ -35,13 +35,16 @@ double layer_price(const Cluster& larger, const Contact& there, const Cluster& s
       std::abs(larger.fit.plane.normal.dot(smaller.fit.plane.normal)) < kLayers)
     return kNever;
   return (there.moments + smaller.moments).mean_square(larger.fit.plane) /
-         square_limit(larger, smaller, extent_of(larger.fit), scale, options.max_rms);
+         square_limit(larger, smaller, scale.flatness.bend_at(extent_of(larger.fit)), scale,
+                      options.max_rms);
 }
 
 // Whether two clusters are on two levels where they meet: `here` are the sites of the one there,
-// `there` those of the other.
+// `there` those of the other. One that lies along the other with most of it is no step of it.
 bool is_step(const Cluster& a, const Contact& here, const Cluster& b, const Contact& there,
              const MergeOptions& options) {
+  if (here.moments.n > kMostOfIt * a.moments.n || there.moments.n > kMostOfIt * b.moments.n)
+    return false;
   const Vec3 other = b.fit.plane.normal;
   const double side = a.fit.plane.normal.dot(other) < 0 ? -1 : 1;
   const Vec3 normal = (a.fit.plane.normal + side * other).normalized();
@@ -54,9 +57,10 @@ bool is_step(const Cluster& a, const Contact& here, const Cluster& b, const Cont
   return step > std::max(options.min_step, options.step_errors * error);
 }
 
-double plane_price(const Cluster& a, const Cluster& b, const Scale& scale,
+double plane_price(const Cluster& a, const Cluster& b, const Scale& scale, Meeting meeting,
                    const MergeOptions& options) {
-  return is_across(a.fit.plane, b.fit.plane) ? kNever : joint_price(a, b, scale, options.max_rms);
+  return is_across(a.fit.plane, b.fit.plane) ? kNever
+                                             : joint_price(a, b, scale, options.max_rms, meeting);
 }
 
 std::vector<Bid> find_bids(const Clustering& c, const std::vector<Contact>& contacts,
@@ -72,7 +76,7 @@ std::vector<Bid> find_bids(const Clustering& c, const std::vector<Contact>& cont
     const auto back = std::lower_bound(contacts.begin(), contacts.end(), Contact{k.b, k.a, {}});
     const bool is_mutual = back != contacts.end() && back->a == k.b && back->b == k.a;
     if (k.a < k.b && !(is_mutual && is_step(at(k.a), k, at(k.b), *back, options)))
-      offer({plane_price(at(k.a), at(k.b), scale, options), k.a, k.b, false});
+      offer({plane_price(at(k.a), at(k.b), scale, Meeting::smooth, options), k.a, k.b, false});
     if (!is_mutual) continue;
     offer({layer_price(at(k.b), *back, at(k.a), k, scale, options), k.b, k.a, true});
   }
@@ -90,7 +94,7 @@ Clustering merge_clusters(const Grid& grid, const Neighbors& neighbors, const Sc
     const auto a = static_cast<std::size_t>(bid.a), b = static_cast<std::size_t>(bid.b);
     if (joiner.find(a) == joiner.find(b)) continue;
     // A plane in common must serve what the two have become since.
-    if (bid.layer || plane_price(joiner.whole(a), joiner.whole(b), scale, options) < 1)
+    if (bid.layer || plane_price(joiner.whole(a), joiner.whole(b), scale, Meeting::smooth, options) < 1)
       joiner.join(a, b);
   }
   return joiner.finish(grid);

@@ -14,7 +14,7 @@ struct ScaleOptions {
   double spacing = 0;  // [m] between neighbouring points on a surface; 0 = from the scan
   double voxel = 0;    // [m] edge of the voxels; 0 = from noise and spacing
   double min_noise = 5e-4;         // [m] a scan is not taken to be better than this
-  double min_voxel = 0.045;        // [m] voxels are not smaller where their size is derived
+  double min_voxel = 0.02;         // [m] voxels are not smaller where their size is derived
   double voxel_per_spacing = 1.5;  // a voxel's edge in spacings
   double voxel_per_noise = 3;      // and at least so many times the noise
   double depth_step = 0;  // [1/m] a depth camera's noise is at least this times range squared

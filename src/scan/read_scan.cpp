@@ -75,7 +75,7 @@ std::vector<Vec3> read_poses(const std::filesystem::path& path) {
                       lines.name(), lines.line_number(), v.size()));
     const std::size_t at = v.size() == 8 ? 1 : 0;
     poses.emplace_back(v[at], v[at + 1], v[at + 2]);
-    if (!(poses.back().cwiseAbs().maxCoeff() < kFarthest))
+    if (!(poses.back().array().abs() < kFarthest).all())
       throw Error(
           Cause::bad_input,
           fmt::format("{}:{}: the pose {} {} {} is not within {:.0f} m of the origin", lines.name(),

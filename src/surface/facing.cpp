@@ -167,7 +167,9 @@ std::vector<Vec3> find_seeing(const std::vector<Patch>& patches, const PatchRays
       sums[v].before += sight.before, sums[v].behind += sight.behind;
   std::vector<Vec3> seeing;
   for (std::size_t v = 0; v < viewpoints.size(); ++v)
-    if (sums[v].behind <= options.max_behind * sums[v].before) seeing.push_back(viewpoints[v]);
+    if (sums[v].before + sums[v].behind < options.min_seen ||
+        sums[v].behind <= options.max_behind * sums[v].before)
+      seeing.push_back(viewpoints[v]);
   return seeing;
 }
 

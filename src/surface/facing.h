@@ -13,7 +13,8 @@ struct FacingOptions {
   double horizon = 4;     // [m] what is farther counts as so far
   double margin = 0.05;   // [m] before a place, where a line of sight may meet something
   double min_lead = 0.2;  // share of a patch's points by which normals must prefer one side
-  double max_behind = 2;  // places seen from behind for each seen from before, of a viewpoint
+  double max_behind = 2;  // places seen from behind for each seen from before, of a viewpoint ...
+  int min_seen = 64;      // ... that sees so many in all; with fewer it is believed
   SkyOptions sky;         // where normals do not tell
 };
 
