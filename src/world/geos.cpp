@@ -88,6 +88,14 @@ Geometry union_of(const Context& context, const std::vector<Rings>& polygons) {
   return {GEOSUnaryUnion_r(context.handle, all.get()), Free{context.handle}};
 }
 
+// What is in some polygons and not in others; null where the library fails.
+Geometry difference(const Context& context, const std::vector<Rings>& polygons,
+                    const std::vector<Rings>& others) {
+  const Geometry whole = union_of(context, polygons), without = union_of(context, others);
+  return {whole && without ? GEOSDifference_r(context.handle, whole.get(), without.get()) : nullptr,
+          Free{context.handle}};
+}
+
 // Moves the outline outwards by a distance [m], inwards where it is negative, with sharp corners.
 Geometry offset(const Context& context, const Geometry& geometry, double distance) {
   return {GEOSBufferWithStyle_r(context.handle, geometry.get(), distance, 1, GEOSBUF_CAP_FLAT,
@@ -122,11 +130,14 @@ std::optional<std::string> why_invalid(const Rings& rings) {
 
 std::vector<Rings> make_valid(const Rings& rings) {
   const Context context;
-  const Geometry polygon = polygon_of(context, rings);
-  std::vector<Rings> result;
-  if (!polygon) return result;
-  const Geometry valid(GEOSMakeValid_r(context.handle, polygon.get()), Free{context.handle});
-  collect(context, valid.get(), result);
+  // Each ring for itself: together, what of a hole lies outside would be filled.
+  std::vector<Rings> outer, holes, result;
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    if (const Geometry polygon = polygon_of(context, {rings[r]})) {
+      const Geometry valid(GEOSMakeValid_r(context.handle, polygon.get()), Free{context.handle});
+      collect(context, valid.get(), r == 0 ? outer : holes);
+    }
+  collect(context, difference(context, outer, holes).get(), result);
   return result;
 }
 
@@ -172,10 +183,7 @@ std::vector<Rings> unite(const std::vector<Rings>& polygons) {
 std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& others,
                             double min_width) {
   const Context context;
-  const Geometry whole = polygon_of(context, polygon), without = union_of(context, others);
-  if (!whole || !without) return {};
-  const Geometry left(GEOSDifference_r(context.handle, whole.get(), without.get()),
-                      Free{context.handle});
+  const Geometry left = difference(context, {polygon}, others);
   std::vector<Rings> result;
   if (!left) return result;
   const Geometry core = offset(context, left, -min_width / 2);

@@ -37,8 +37,9 @@ struct Overlap {
 };
 Overlap overlap_of(const Rings& a, const Rings& b);
 
-// The valid polygons that rings stand for, which may cross, touch or lie in each other: what is in
-// an odd number of them. Corners stay; new ones are where edges cross. Orientation as below.
+// The valid polygons that rings stand for, which may cross, touch or lie outside of each other:
+// what the outer ring goes around an odd number of times, without what the holes do. Corners stay;
+// new ones are where edges cross. Orientation as below.
 std::vector<Rings> make_valid(const Rings& rings);
 
 // The union of valid polygons. Here and below, outer rings of results are counter-clockwise, holes

@@ -24,19 +24,28 @@ namespace {
 constexpr double kNeck = 0.005;  // [m] where a polygon is narrower it is cut, if nothing else helps
 constexpr double kLeastPart = 0.01;  // of the largest part's area; what is smaller is left out
 
-// A world of one surface.
-World alone(const World& world, const Surface& surface) {
-  World part{.frame = world.frame, .vertices = world.vertices, .surfaces = {surface}};
-  drop_vertices(part);
+// A world of one surface and its vertices.
+World alone(const World& world, Surface surface) {
+  World part{.frame = world.frame};
+  std::map<int, int> index;
+  const auto take = [&](Loop& loop) {
+    for (int& v : loop) {
+      const auto [found, is_new] = index.try_emplace(v, static_cast<int>(part.vertices.size()));
+      if (is_new) part.vertices.push_back(world.vertices[static_cast<std::size_t>(v)]);
+      v = found->second;
+    }
+  };
+  take(surface.outer);
+  for (Loop& hole : surface.holes) take(hole);
+  part.surfaces.push_back(std::move(surface));
   return part;
 }
 
-// Why a surface cannot be kept as it is.
-std::optional<std::string> fault_of(const World& world, const Surface& surface) {
-  const World part = alone(world, surface);
-  if (const auto reasons = validate(part); !reasons.empty()) return reasons[0];
+// Why a world cannot be kept as it is.
+std::optional<std::string> fault_of(const World& world) {
+  if (const auto reasons = validate(world); !reasons.empty()) return reasons[0];
   try {
-    triangulate(part);
+    triangulate(world);
   } catch (const Error& error) {
     return error.what();
   }
@@ -54,10 +63,16 @@ std::string in_scan(const World& world, const Vec3& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f})", at.x(), at.y(), at.z());
 }
 
-Vec3 middle_of(const World& world, const Loop& loop) {
+Vec3 middle_of(const std::vector<Vec3>& points) {
   Box3 box;
-  for (int v : loop) box.extend(world.vertices[static_cast<std::size_t>(v)]);
-  return box.center();
+  for (const Vec3& p : points) box.extend(p);
+  return points.empty() ? Vec3(Vec3::Zero()) : box.center();
+}
+
+Vec3 middle_of(const World& world, const Loop& loop) {
+  std::vector<Vec3> corners;
+  for (int v : loop) corners.push_back(world.vertices[static_cast<std::size_t>(v)]);
+  return middle_of(corners);
 }
 
 // Makes surfaces of the polygons in the plane of a broken one.
@@ -73,11 +88,14 @@ class Mender {
       name_corners(broken_.holes[h], rings_[h + 1]);
   }
 
-  // Where it is broken, or its middle.
-  Vec3 place() const {
-    if (rings_.empty()) return middle_of(world_, broken_.outer);
+  // What is wrong and where, in the scan's coordinates; `fault` tells it where nothing here does.
+  std::string flaw(const std::string& fault) const {
+    if (rings_.empty()) return told("it has no area", middle_of(world_, broken_.outer));
+    if (worst_ > kPlanarTolerance)
+      return told(fmt::format("a corner is {:.4f} m off its plane", worst_), worst_at_);
     const auto flaw = geos::find_flaw(rings_);
-    return flaw && flaw->at ? frame_.to_space(*flaw->at) : middle_of(world_, broken_.outer);
+    return flaw && flaw->at ? told(flaw->reason, frame_.to_space(*flaw->at))
+                            : told(fault, middle_of(world_, broken_.outer));
   }
 
   // The largest first.
@@ -90,9 +108,8 @@ class Mender {
     std::stable_sort(sound.begin(), sound.end(), [&](const Surface& a, const Surface& b) {
       return area(world_, a) > area(world_, b);
     });
-    std::erase_if(sound, [&](const Surface& s) {
-      return area(world_, s) < kLeastPart * area(world_, sound[0]);
-    });
+    const double least = sound.empty() ? 0 : kLeastPart * area(world_, sound[0]);
+    std::erase_if(sound, [&](const Surface& s) { return area(world_, s) < least; });
     for (std::size_t k = 1; k < sound.size(); ++k) sound[k].support = {};
     return sound;
   }
@@ -101,9 +118,14 @@ class Mender {
   void name_corners(const Loop& loop, const std::vector<Vec2>& ring) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const Vec3& at = world_.vertices[static_cast<std::size_t>(loop[k])];
-      if (std::abs(broken_.plane.signed_distance(at)) <= kPlanarTolerance)
-        vertex_at_[{ring[k].x(), ring[k].y()}] = loop[k];
+      const double off = std::abs(broken_.plane.signed_distance(at));
+      if (off <= kPlanarTolerance) vertex_at_[{ring[k].x(), ring[k].y()}] = loop[k];
+      if (off > worst_) worst_ = off, worst_at_ = at;
     }
+  }
+
+  std::string told(const std::string& what, const Vec3& at) const {
+    return fmt::format("{}, at {} of the scan", what, in_scan(world_, at));
   }
 
   // The corner that was there, or a new one.
@@ -125,7 +147,7 @@ class Mender {
       for (const Vec2& p : rings[r]) loop.push_back(vertex(p));
       (r == 0 ? surface.outer : surface.holes.emplace_back()) = std::move(loop);
     }
-    if (fault_of(world_, surface)) return false;
+    if (fault_of(alone(world_, surface))) return false;
     sound.push_back(std::move(surface));
     return true;
   }
@@ -135,6 +157,8 @@ class Mender {
   PlaneFrame frame_;
   geos::Rings rings_;  // none where it has no area at all
   std::map<std::pair<double, double>, int> vertex_at_;
+  double worst_ = 0;  // [m] that a corner is off the plane
+  Vec3 worst_at_ = Vec3::Zero();
 };
 
 Vec3 place_of(const World& world, const Surface& s) { return middle_of(world, s.outer); }
@@ -142,12 +166,8 @@ Vec3 place_of(const World& world, const Opening& o) { return middle_of(world, o.
 Vec3 place_of(const World&, const Room& r) { return r.center.value_or(Vec3::Zero()); }
 Vec3 place_of(const World&, const OrientedBox& b) { return b.center; }
 Vec3 place_of(const World&, const Cylinder& c) { return c.center; }
-Vec3 place_of(const World&, const ConvexHull& h) {
-  return h.vertices.empty() ? Vec3(Vec3::Zero()) : h.vertices[0];
-}
-Vec3 place_of(const World&, const ConvexPrism& p) {
-  return p.base.empty() ? Vec3(Vec3::Zero()) : p.base[0];
-}
+Vec3 place_of(const World&, const ConvexHull& h) { return middle_of(h.vertices); }
+Vec3 place_of(const World&, const ConvexPrism& p) { return middle_of(p.base); }
 template <typename Thing>  // an obstacle or a collider
 Vec3 place_of(const World& world, const Thing& thing) {
   return std::visit([&](const auto& shape) { return place_of(world, shape); }, thing.shape);
@@ -165,11 +185,12 @@ void keep_valid(const World& world, std::vector<Thing> World::*things, const Bes
   for (const Thing& thing : world.*things) {
     World trial = beside(thing);
     (trial.*things) = {thing};
-    if (const auto reasons = validate(trial); reasons.empty())
-      (kept.world.*things).push_back(thing);
-    else
-      kept.warnings.push_back(fmt::format("{}; it is left out, at {} of the scan", reasons[0],
+    drop_vertices(trial);
+    if (const auto fault = fault_of(trial))
+      kept.warnings.push_back(fmt::format("{}; it is left out, at {} of the scan", *fault,
                                           in_scan(world, place_of(world, thing))));
+    else
+      (kept.world.*things).push_back(thing);
   }
 }
 
@@ -178,7 +199,7 @@ void keep_valid(const World& world, std::vector<Thing> World::*things, const Bes
 Mended mend_surfaces(World world) {
   std::vector<std::optional<std::string>> faults(world.surfaces.size());
   parallel_for(faults.size(),
-               [&](std::size_t i) { faults[i] = fault_of(world, world.surfaces[i]); });
+               [&](std::size_t i) { faults[i] = fault_of(alone(world, world.surfaces[i])); });
   Mended mended{.world = std::move(world)};
   const std::vector<Surface> found = std::exchange(mended.world.surfaces, {});
   std::vector<Surface> sound;
@@ -186,15 +207,13 @@ Mended mend_surfaces(World world) {
     std::vector<Surface> parts = {found[i]};
     if (faults[i]) {
       Mender mender(mended.world, found[i]);
-      const std::string place = in_scan(mended.world, mender.place());
+      const std::string flaw = mender.flaw(unnamed(*faults[i]));
       parts = mender.mend();
       mended.warnings.push_back(
           parts.empty()
-              ? fmt::format("a surface of {} points is left out, at {} of the scan: {}",
-                            found[i].support.points, place, unnamed(*faults[i]))
-              : fmt::format("surface {} was mended into {} polygon{}, at {} of the scan: {}",
-                            sound.size(), parts.size(), parts.size() > 1 ? "s" : "", place,
-                            unnamed(*faults[i])));
+              ? fmt::format("a surface of {} points is left out: {}", found[i].support.points, flaw)
+              : fmt::format("surface {} was mended into {} polygon{}: {}", sound.size(),
+                            parts.size(), parts.size() > 1 ? "s" : "", flaw));
     }
     for (Surface& part : parts) {
       part.id = static_cast<int>(sound.size());
@@ -212,7 +231,7 @@ Mended mend_surfaces(World world) {
 Mended leave_out_invalid(World world) {
   std::vector<std::size_t> all(world.surfaces.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  if (validate(world).empty()) return {std::move(world), {}, std::move(all)};
+  if (!fault_of(world)) return {std::move(world), {}, std::move(all)};
 
   const World bare{.frame = world.frame, .vertices = world.vertices};
   Mended kept{.world = bare};
@@ -225,7 +244,8 @@ Mended leave_out_invalid(World world) {
   };
   keep_valid(world, &World::surfaces, beside_nothing, kept);
   for (const Surface& s : kept.world.surfaces)
-    kept.from.push_back(static_cast<std::size_t>(find_surface(world, s.id) - world.surfaces.data()));
+    kept.from.push_back(
+        static_cast<std::size_t>(find_surface(world, s.id) - world.surfaces.data()));
   keep_valid(world, &World::openings, beside_its_surface, kept);
   keep_valid(world, &World::colliders, beside_its_surface, kept);
   keep_valid(world, &World::obstacles, beside_nothing, kept);

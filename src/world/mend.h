@@ -20,7 +20,8 @@ struct Mended {
 // and rooms are to be made of what it gives.
 Mended mend_surfaces(World world);
 
-// Leaves out whatever keeps a world from being valid, and what refers to that; ids stay.
+// Leaves out whatever keeps a world from being valid or triangulated, and what refers to that; ids
+// stay. Here and above, ids must be unique and vertices that are referred to exist.
 Mended leave_out_invalid(World world);
 
 }  // namespace scanworld
