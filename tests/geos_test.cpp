@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "world/geos.h"
+
+#include "polygon.h"
+#include "support/support.h"
+
+using namespace scanworld;
+using namespace scanworld::test;
+
+namespace {
+
+double area_inside(const std::vector<geos::Rings>& polygons) {
+  double twice = 0;  // holes are clockwise
+  for (const geos::Rings& rings : polygons)
+    for (const auto& ring : rings) twice += doubled_area(ring);
+  return twice / 2;
+}
+
+std::vector<Vec2> block(double x, double y, double width, double height) {
+  return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
+}
+
+}  // namespace
+
+TEST_CASE("a polygon without flaw has none, and is what it is made into") {
+  const geos::Rings rings = {block(0, 0, 4, 3), block(1, 1, 1, 1)};
+  CHECK_FALSE(geos::find_flaw(rings));
+  const auto parts = geos::make_valid(rings);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts[0].size() == 2);
+  CHECK(area_inside(parts) == doctest::Approx(11));
+}
+
+TEST_CASE("a flaw is told with its place") {
+  const auto flaw = geos::find_flaw({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}});
+  REQUIRE(flaw);
+  CHECK(contains(flaw->reason, "Self-intersection"));
+  REQUIRE(flaw->at);
+  CHECK((*flaw->at - Vec2(1, 1)).norm() < 1e-9);
+  CHECK(contains(*geos::why_invalid({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}), "(1.000, 1.000)"));
+}
+
+TEST_CASE("holes take from the outer ring alone, wherever they are") {
+  const std::vector<Vec2> outer = block(0, 0, 4, 3);
+  CHECK(area_inside(geos::make_valid({outer, block(3, 1, 2, 1)})) == doctest::Approx(11));
+  CHECK(area_inside(geos::make_valid({outer, block(6, 1, 2, 1)})) == doctest::Approx(12));
+  CHECK(area_inside(geos::make_valid({outer, block(1, 1, 1, 1), block(1.5, 1, 1, 1)})) ==
+        doctest::Approx(10.5));
+  CHECK(geos::make_valid({outer, block(-1, -1, 6, 5)}).empty());
+  const auto parted = geos::make_valid({outer, block(1, -1, 1, 5)});
+  CHECK(parted.size() == 2);
+  CHECK(area_inside(parted) == doctest::Approx(9));
+}
+
+TEST_CASE("whatever rings are, valid polygons are made of them, or none") {
+  Random random(5);
+  for (int run = 0; run < 500; ++run) {
+    CAPTURE(run);
+    geos::Rings rings;
+    for (int r = random.whole(1, 3); r > 0; --r) {
+      std::vector<Vec2>& ring = rings.emplace_back();
+      // On a coarse grid corners fall together and edges along each other.
+      const bool is_coarse = run % 2;
+      for (int k = random.whole(3, 9); k > 0; --k)
+        ring.emplace_back(is_coarse ? random.whole(0, 4) : random.uniform(0, 4),
+                          is_coarse ? random.whole(0, 4) : random.uniform(0, 4));
+    }
+    for (const geos::Rings& part : geos::make_valid(rings)) {
+      CHECK_FALSE(geos::find_flaw(part));
+      CHECK(doubled_area(part[0]) > 0);
+      for (std::size_t h = 1; h < part.size(); ++h) CHECK(doubled_area(part[h]) < 0);
+    }
+  }
+}
+
+TEST_CASE("corners that are not finite make no polygon") {
+  for (const double bad : {double(NAN), double(INFINITY)})
+    for (const geos::Rings& part : geos::make_valid({{{0, 0}, {1, 0}, {1, bad}, {0, 1}}}))
+      CHECK_FALSE(geos::find_flaw(part));
+}
