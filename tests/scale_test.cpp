@@ -43,7 +43,7 @@ TEST_CASE("noise and spacing of a room are found, the voxel follows from them") 
       const Scale scale = estimate_scale(room_points({5, 4, 2.7}, spacing, noise));
       CHECK(scale.noise == doctest::Approx(noise).scale(0).epsilon(0.2));
       CHECK(scale.spacing == doctest::Approx(spacing).scale(0).epsilon(0.3));
-      CHECK(scale.voxel == std::max({0.045, 1.5 * scale.spacing, 3 * scale.noise}));
+      CHECK(scale.voxel == std::max({0.02, 1.5 * scale.spacing, 3 * scale.noise}));
     }
 }
 

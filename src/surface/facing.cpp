@@ -115,8 +115,20 @@ Patch flipped(const Patch& patch) {
 
 namespace {
 
+// Whether one sees clearly farther to one side than to the other.
+bool is_clear(const Outlook& outlook, const FacingOptions& options) {
+  const auto [less, more] = std::minmax({outlook.way[0], outlook.way[1]});
+  const auto rays = static_cast<double>(outlook.places.size()) * options.directions;
+  return more - less > options.min_lead * (more + less) && more > options.min_way * rays;
+}
+
+struct Turned {
+  std::vector<Patch> patches;
+  std::vector<std::uint8_t> is_sure;  // of the side, for each
+};
+
 // To the side that normals tell, or else rays, the ground and the sky.
-std::vector<Patch> face_by_rays(std::vector<Patch> patches, const PatchRays& rays,
+Turned face_by_rays(std::vector<Patch> patches, const PatchRays& rays,
                                 const PointCloud& cloud, const Members& members, const Vec3& up,
                                 const FacingOptions& options) {
   const Judge judge(rays, cloud, up, options);
@@ -125,17 +137,18 @@ std::vector<Patch> face_by_rays(std::vector<Patch> patches, const PatchRays& ray
     if (patches[k].hit.bits.empty()) return;
     const double told = judge.told_side(patches[k], members.of(k));
     if (told < 0) patches[k] = flipped(patches[k]);
-    if (told != 0)
-      outlooks[k].is_told = true;
-    else
-      outlooks[k] = judge.look(patches[k]);
+    if (told == 0 || !cloud.viewpoints.empty()) outlooks[k] = judge.look(patches[k]);
+    outlooks[k].is_told = told != 0;
   });
   const std::vector<std::uint8_t> turned =
       find_turned(patches, outlooks, rays, judge.directions(), up, options.horizon, options.sky);
+  std::vector<std::uint8_t> is_sure(patches.size());
   parallel_for(patches.size(), [&](std::size_t k) {
+    const bool agrees = !outlooks[k].is_told || outlooks[k].way[0] > outlooks[k].way[1];
+    is_sure[k] = agrees && is_clear(outlooks[k], options);
     if (turned[k]) patches[k] = flipped(patches[k]);
   });
-  return patches;
+  return {std::move(patches), std::move(is_sure)};
 }
 
 // How many places on patches have a free line to a viewpoint.
@@ -155,11 +168,11 @@ std::map<std::size_t, Sight> sights_of(const Patch& patch, const PatchRays& rays
 }
 
 // The viewpoints, but for those that see patches from behind for the most part.
-std::vector<Vec3> find_seeing(const std::vector<Patch>& patches, const PatchRays& rays,
+std::vector<Vec3> find_seeing(const Turned& turned, const PatchRays& rays,
                               const std::vector<Vec3>& viewpoints, const FacingOptions& options) {
-  std::vector<std::map<std::size_t, Sight>> sights(patches.size());
-  parallel_for(patches.size(), [&](std::size_t k) {
-    sights[k] = sights_of(patches[k], rays, viewpoints, options);
+  std::vector<std::map<std::size_t, Sight>> sights(turned.patches.size());
+  parallel_for(turned.patches.size(), [&](std::size_t k) {
+    if (turned.is_sure[k]) sights[k] = sights_of(turned.patches[k], rays, viewpoints, options);
   });
   std::vector<Sight> sums(viewpoints.size());
   for (const auto& of_patch : sights)
@@ -167,9 +180,7 @@ std::vector<Vec3> find_seeing(const std::vector<Patch>& patches, const PatchRays
       sums[v].before += sight.before, sums[v].behind += sight.behind;
   std::vector<Vec3> seeing;
   for (std::size_t v = 0; v < viewpoints.size(); ++v)
-    if (sums[v].before + sums[v].behind < options.min_seen ||
-        sums[v].behind <= options.max_behind * sums[v].before)
-      seeing.push_back(viewpoints[v]);
+    if (sums[v].behind <= options.max_behind * sums[v].before) seeing.push_back(viewpoints[v]);
   return seeing;
 }
 
@@ -191,9 +202,9 @@ std::vector<Patch> face_viewpoints(std::vector<Patch> patches, const PatchRays& 
 Faced face_free_side(std::vector<Patch> patches, const PatchRays& rays, const PointCloud& cloud,
                      const Members& members, const Vec3& up, const FacingOptions& options) {
   Faced faced;
-  faced.patches = face_by_rays(std::move(patches), rays, cloud, members, up, options);
-  faced.viewpoints = find_seeing(faced.patches, rays, cloud.viewpoints, options);
-  faced.patches = face_viewpoints(std::move(faced.patches), rays, faced.viewpoints, options);
+  Turned turned = face_by_rays(std::move(patches), rays, cloud, members, up, options);
+  faced.viewpoints = find_seeing(turned, rays, cloud.viewpoints, options);
+  faced.patches = face_viewpoints(std::move(turned.patches), rays, faced.viewpoints, options);
   return faced;
 }
 

@@ -12,9 +12,9 @@ struct FacingOptions {
   int directions = 16;    // from each place to each side
   double horizon = 4;     // [m] what is farther counts as so far
   double margin = 0.05;   // [m] before a place, where a line of sight may meet something
-  double min_lead = 0.2;  // share of a patch's points by which normals must prefer one side
-  double max_behind = 2;  // places seen from behind for each seen from before, of a viewpoint ...
-  int min_seen = 64;      // ... that sees so many in all; with fewer it is believed
+  double min_lead = 0.2;  // share of normals, or of what one sees, that must prefer one side
+  double min_way = 1;     // [m] that one sees on average to the side that is clearly free
+  double max_behind = 2;  // places seen from behind for each seen from before, of a viewpoint
   SkyOptions sky;         // where normals do not tell
 };
 
@@ -31,8 +31,9 @@ struct Faced {
 // where there are none, to the side with more free space before other patches. On that side one
 // looks far before something is met; inside a wall or a cupboard one does not, and outside of what
 // was scanned nothing is met at all. Out of doors the ground and the sky tell, see find_turned().
-// At last to the viewpoints that have seen most places. A viewpoint that sees patches from behind
-// for the most part, as the zero that was never set does in map coordinates, does not count.
+// At last to the viewpoints that have seen most places. A viewpoint that sees patches
+// from behind for the most part, as the zero that was never set does in map coordinates, does not
+// count; patches of which nothing else tells the side do not testify against one.
 Faced face_free_side(std::vector<Patch> patches, const PatchRays& rays, const PointCloud& cloud,
                      const Members& members, const Vec3& up, const FacingOptions& options = {});
 

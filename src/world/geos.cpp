@@ -138,6 +138,8 @@ std::vector<Rings> make_valid(const Rings& rings) {
       collect(context, valid.get(), r == 0 ? outer : holes);
     }
   collect(context, difference(context, outer, holes).get(), result);
+  // So thin ones come of rounding.
+  std::erase_if(result, [](const Rings& part) { return doubled_area(part[0]) <= 0; });
   return result;
 }
 

@@ -249,9 +249,15 @@ Mended leave_out_invalid(World world) {
   keep_valid(world, &World::openings, beside_its_surface, kept);
   keep_valid(world, &World::colliders, beside_its_surface, kept);
   keep_valid(world, &World::obstacles, beside_nothing, kept);
-  const std::set<int> ids = surface_ids(kept.world);
   for (Room& room : world.rooms)
-    std::erase_if(room.surfaces, [&](int id) { return !ids.contains(id); });
+    std::erase_if(room.surfaces, [&](int id) {
+      if (find_surface(kept.world, id)) return false;
+      if (!find_surface(world, id))
+        kept.warnings.push_back(fmt::format("room {} refers to surface {}, which does not exist; "
+                                            "the reference is left out, at {} of the scan",
+                                            room.id, id, in_scan(world, place_of(world, room))));
+      return true;
+    });
   const auto beside_all = [&](const auto&) {
     World trial = bare;
     trial.surfaces = kept.world.surfaces, trial.openings = kept.world.openings;
