@@ -156,11 +156,11 @@ void tell(const BuildRequest& request, const ReconstructResult& result, const Js
   for (const StageReport& s : result.report.stages)
     request.console.note(fmt::format("{:<28} {:8.1f} ms  {:>11} -> {:<9} {}", s.name,
                                      1e3 * s.seconds, grouped(s.in), grouped(s.out), s.what));
-  request.console.note("the world is " + report["fidelity"]["verdict"].get<std::string>());
   if (request.json)
     print_json(report);
   else
-    fmt::print("{}\n", summary(request, result.world, report));
+    fmt::print("{}\n{}\n", summary(request, result.world, report),
+               "the world is " + report["fidelity"]["verdict"].get<std::string>());
 }
 
 void run(BuildRequest request) {
@@ -212,6 +212,7 @@ void run(BuildRequest request) {
   });
   Json report = whole_report(request, result, fidelity, cloud, seconds_since(start));
   if (budget) report["budget"] = json_of(*budget);
+  if (!fidelity.is_faithful()) report["warnings"].push_back("the world is " + verdict_of(fidelity));
   write_json(folder.path() / "report.json", report);
   write_text(folder.path() / "report.html",
              report_page_of(result.world, folder_name(request.out), report.dump()));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <tuple>
 
 #include "cli.h"
@@ -24,12 +25,29 @@ Json json_of(const Distances& d) { return {{"median", d.median}, {"p95", d.p95}}
 
 Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+Json json_of(const FloorQuality& quality) {
+  Json floors = Json::array();
+  for (const WholeFloor& floor : quality.floors)
+    floors.push_back({{"area", floor.area}, {"pieces", floor.pieces}});
+  return {{"area", quality.area},
+          {"steps", quality.steps},
+          {"gaps", quality.gaps},
+          {"each", std::move(floors)}};
+}
+
+Json json_of(const StraySurfaces& strays) {
+  return {{"floating", strays.floating},
+          {"floating_area", strays.floating_area},
+          {"area", strays.area},
+          {"crossings", strays.crossings},
+          {"edges", strays.edges}};
+}
+
 std::string length_text(double metres) { return figure_text(metres, "m"); }
 
 std::string criterion_line(const Criterion& c) {
-  if (!c.value)
-    return fmt::format("  {:<30} not measured: no scanner positions (--poses)\n", c.name);
-  return fmt::format("  {:<30} {:>10}  {} {:<9}  {}\n", c.name, figure_text(*c.value, c.unit),
+  if (!c.value) return fmt::format("  {:<30} not asked: no {}\n", c.name, c.lacking);
+  return fmt::format("  {:<30} {:>15}  {} {:<14}  {}\n", c.name, figure_text(*c.value, c.unit),
                      c.is_minimum ? "at least" : "at most ", figure_text(c.limit, c.unit),
                      c.is_met() ? "passed" : "FAILED");
 }
@@ -99,26 +117,39 @@ Json json_of(const Fidelity& f) {
           {"rays", f.rays},
           {"noise", f.noise},
           {"spacing", f.spacing},
+          {"bend", f.bend},
           {"tolerance", f.tolerance},
           {"max_distance", f.max_distance},
           {"scan_to_world", json_of(f.scan_to_world)},
           {"world_to_scan", json_of(f.world_to_scan)},
           {"coverage", f.coverage},
           {"unexplained", f.unexplained},
+          {"close", f.close},
+          {"inside", f.inside},
           {"free_space_violations", json_of(f.free_space_violations)},
           {"leaks", json_of(f.leaks)},
           {"misplaced", f.misplaced},
+          {"floors", json_of(f.floors)},
+          {"strays", json_of(f.strays)},
           {"criteria", criteria},
           {"surfaces", surfaces}};
 }
 
 std::string verdict_of(const Fidelity& fidelity) {
-  std::string failed;
-  for (const Criterion& c : fidelity.criteria)
-    if (!c.is_met())
-      failed +=
-          fmt::format("{}{} {}", failed.empty() ? "" : ", ", c.name, figure_text(*c.value, c.unit));
-  return failed.empty() ? "faithful" : "not faithful: " + failed;
+  std::string failed, not_asked;
+  const auto add = [](std::string& list, const std::string& item) {
+    list += (list.empty() ? "" : ", ") + item;
+  };
+  std::map<std::string, std::string> lacking;
+  for (const Criterion& c : fidelity.criteria) {
+    if (!c.value)
+      add(lacking[c.lacking], c.name);
+    else if (!c.is_met())
+      add(failed, fmt::format("{} {}", c.name, figure_text(*c.value, c.unit)));
+  }
+  for (const auto& [what, names] : lacking) add(not_asked, fmt::format("{} (no {})", names, what));
+  return (failed.empty() ? "faithful" : "not faithful: " + failed) +
+         (not_asked.empty() ? "" : "; not asked: " + not_asked);
 }
 
 std::string text_of(const Fidelity& f, const World& world) {

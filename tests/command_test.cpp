@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command as a user runs it: what it prints, leaves behind and returns.
+#include <fmt/format.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -330,6 +332,35 @@ TEST_CASE("a world that is not valid is refused by all that would use it, with e
 }
 
 TEST_CASE(
+    "build tells its verdict and what was not asked, and warns in the report where it is bad") {
+  const TempFolder folder;
+  std::string floor, stray;
+  Random random(1);
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 100; ++k)
+      floor += fmt::format("{} {} {}\n", 0.04 * i, 0.04 * k, 0.003 * random.gauss());
+  for (int i = 0; i < 2000; ++i)
+    stray += fmt::format("{} {} {}\n", 4 * random.uniform(), 4 * random.uniform(),
+                         0.3 + 2 * random.uniform());
+  const auto build = [&](const std::string& points) {
+    write_file(folder / "s.xyz", points);
+    return run({"build", folder / "s.xyz", "-o", folder / "w", "--export", "none", "-q"});
+  };
+  const auto warnings = [&] {
+    return Json::parse(read_file(folder / "w" / "report.json"))["warnings"].dump();
+  };
+  const Outcome good = build(floor);
+  CHECK(contains(good.out,
+                 "\nthe world is faithful; not asked: free-space violations, leaks (no "
+                 "viewpoints)\n"));
+  CHECK_FALSE(contains(warnings(), "faithful"));
+  const Outcome bad = build(floor + stray);
+  CHECK(bad.code == 0);
+  CHECK(contains(bad.out, "\nthe world is not faithful: unexplained points "));
+  CHECK(contains(warnings(), "the world is not faithful: "));
+}
+
+TEST_CASE(
     "check measures a world against its scan as build did, with or without poses, and gives a "
     "verdict") {
   const TempFolder folder;
@@ -340,9 +371,13 @@ TEST_CASE(
   CHECK_MESSAGE(good.code == 0, good.out);
   for (const char* told : {"valid", "coverage", "leaks", "verdict: faithful\n"})
     CHECK(contains(good.out, told));
-  CHECK(contains(run({"check", world, scan}).out, "not measured"));
+  CHECK(contains(run({"check", world, scan}).out,
+                 "leaks                          not asked: no viewpoints"));
 
-  CHECK(run({"build", scan, "--poses", poses, "-o", folder / "w", "--export", "none"}).code == 0);
+  const Outcome made =
+      run({"build", scan, "--poses", poses, "-o", folder / "w", "--export", "none"});
+  CHECK(made.code == 0);
+  CHECK(contains(made.out, "\nthe world is faithful\n"));
   const Json built = Json::parse(read_file(folder / "w" / "report.json"))["fidelity"];
   const Json checked =
       Json::parse(run({"check", folder / "w", scan, "--poses", poses, "--json"}).out)["fidelity"];

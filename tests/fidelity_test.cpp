@@ -287,6 +287,81 @@ TEST_CASE("a depth camera's far points may be farther off") {
   CHECK(f.noise > 0.02);
 }
 
+TEST_CASE("the tolerance is never more than 5 cm, however noisy the scan is said to be") {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 40; ++i)
+    for (int k = 0; k < 40; ++k) points.emplace_back(0.025 * i, 0.025 * k, 0.002 * (i % 10));
+  for (const double noise : {0.001, 0.005, 0.01, 0.1, 1.0}) {
+    const Fidelity f = over_floor(points, {.noise = noise});
+    CHECK(f.tolerance >= 0.01);
+    CHECK(f.tolerance <= 0.05);
+    CHECK(criterion(f, "median").limit <= 0.02);
+  }
+  CHECK(over_floor(points, {.noise = 0.005}).tolerance ==
+        doctest::Approx(0.02).scale(0).epsilon(0.1));
+}
+
+TEST_CASE(
+    "random points are not faithful to planes through them, whatever their noise is taken for") {
+  Random random(3);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 100000; ++i)
+    points.emplace_back(2 * random.uniform(), 2 * random.uniform(), 2 * random.uniform());
+  std::vector<FoundSurface> planes;
+  for (int i = 0; i < 4; ++i) {
+    const double at = (i + 0.5) / 2;
+    planes.push_back(level_rectangle(0, 0, 2, 2, at));
+    planes.push_back(upright_rectangle({0, at, 0}, {2, at, 0}, 2));
+  }
+  const World world = world_with(planes);
+  for (const double noise : {0.01, 0.05, 0.3}) {
+    const Fidelity f = measure_fidelity(world, cloud_of(points), {.noise = noise});
+    CHECK_FALSE(f.is_faithful());
+    CHECK(f.close < 0.6);
+    CHECK_FALSE(criterion(f, "close").is_met());
+    CHECK_FALSE(criterion(f, "crossing").is_met());
+  }
+}
+
+TEST_CASE("what is not asked is said: rays without viewpoints, floors where there are none") {
+  const Fidelity with_floor = over_floor({{0.5, 0.5, 0}});
+  CHECK(criterion(with_floor, "leaks").lacking == "viewpoints");
+  CHECK(criterion(with_floor, "gaps in floors").value);
+  World wall = world_with({upright_rectangle({0, 0, 0}, {1, 0, 0}, 1)});
+  const Fidelity without = measure_fidelity(wall, cloud_of({{0.5, 0, 0.5}}));
+  for (const char* name : {"floor pieces", "steps in floors", "gaps in floors"}) {
+    CHECK_FALSE(criterion(without, name).value);
+    CHECK(criterion(without, name).lacking == "floor");
+    CHECK(criterion(without, name).is_met());
+  }
+}
+
+TEST_CASE("a floor in steps, with gaps or a floating piece is not faithful") {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 100; ++k) points.emplace_back(0.04 * (i + 0.5), 0.04 * (k + 0.5), 0.004);
+  const auto judged = [&](const std::vector<FoundSurface>& floors) {
+    World world = world_with(floors);
+    for (Surface& s : world.surfaces) s.kind = Kind::floor;
+    return measure_fidelity(world, cloud_of(points), {.noise = 0.002});
+  };
+  CHECK(judged({level_rectangle(0, 0, 4, 4, 0)}).criteria.size() == 13);
+  const Fidelity stepped =
+      judged({level_rectangle(0, 0, 2, 4, 0), level_rectangle(2, 0, 4, 4, 0.008)});
+  CHECK_FALSE(criterion(stepped, "steps in").is_met());
+  CHECK(criterion(stepped, "gaps").is_met());
+  const Fidelity parted =
+      judged({level_rectangle(0, 0, 1.9, 4, 0), level_rectangle(2, 0, 4, 4, 0)});
+  CHECK_FALSE(criterion(parted, "gaps").is_met());
+  CHECK(criterion(parted, "steps").is_met());
+  std::vector<FoundSurface> strips;
+  for (int i = 0; i < 4; ++i) strips.push_back(level_rectangle(i, 0, i + 1, 4, 0));
+  CHECK_FALSE(criterion(judged(strips), "pieces").is_met());
+  const Fidelity floating =
+      judged({level_rectangle(0, 0, 2, 4, 0), level_rectangle(2.6, 0, 4, 4, 0)});
+  CHECK_FALSE(criterion(floating, "floating").is_met());
+}
+
 TEST_CASE("scans of another place and empty ones are refused") {
   World world = world_named("room");
   const PointCloud cloud = scan_of(world, 5000);

@@ -5,106 +5,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
 #include "../error.h"
-#include "../mix.h"
 #include "../parallel.h"
+#include "bend.h"
 #include "cloud_in_world.h"
+#include "fidelity_samples.h"
 #include "near_points.h"
 #include "ray_scene.h"
 #include "sight_lines.h"
 #include "solids.h"
-#include "triangulate.h"
 
 namespace scanworld {
 
 namespace {
 
 constexpr double kFewPoints = 0.01;  // share near the world below which it is of another place
-
-// About `wanted` points of the cloud, chosen and ordered by their coordinates.
-std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
-  struct Ranked {
-    std::uint64_t rank;
-    std::uint32_t point;
-  };
-  const double share =
-      static_cast<double>(wanted) / static_cast<double>(std::max(wanted, cloud.size()));
-  const auto limit = static_cast<std::uint64_t>(share * 0x1p53);
-  constexpr std::size_t kPart = 1 << 14;
-  std::vector<std::vector<Ranked>> parts(part_count(cloud.size(), kPart));
-  parallel_for(parts.size(), [&](std::size_t i) {
-    const auto [begin, end] = part_of(i, cloud.size(), kPart);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec3f p = cloud.cloud().points[k] + Vec3f::Zero();  // makes -0 a 0
-      const auto bits = [&](int axis) {
-        return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(p[axis]));
-      };
-      const std::uint64_t rank = mix(mix(bits(0) << 32 | bits(1)) ^ (bits(2) + 1)) >> 11;
-      if (rank <= limit) parts[i].push_back({rank, static_cast<std::uint32_t>(k)});
-    }
-  });
-  std::vector<Ranked> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  const auto xyz = [&](const Ranked& r) { return cloud.cloud().points[r.point].data(); };
-  std::sort(all.begin(), all.end(), [&](const Ranked& a, const Ranked& b) {
-    if (a.rank != b.rank) return a.rank < b.rank;
-    return std::lexicographical_compare(xyz(a), xyz(a) + 3, xyz(b), xyz(b) + 3);
-  });
-  std::vector<Vec3> points;
-  for (const Ranked& r : all) points.push_back(cloud.point(r.point));
-  return points;
-}
-
-// A place on a surface, which stands for some area.
-struct Place {
-  Vec3 at;
-  std::size_t surface;
-  double area;  // [m2]
-};
-
-// Places spread evenly over the measured surfaces: at equal steps of area through a surface's
-// triangles one after the other, in each by a sequence that fills it evenly (Roberts 2018, R2).
-std::vector<Place> sample_surfaces(const World& world, const FidelityOptions& options) {
-  const WorldMesh mesh = triangulate(world);
-  const auto corner = [&](std::size_t t, std::size_t k) -> const Vec3& {
-    return mesh.mesh.vertices[static_cast<std::size_t>(mesh.mesh.triangles[t][k])];
-  };
-  std::vector<double> area(mesh.surface.size()), whole(world.surfaces.size());
-  double total = 0;
-  for (std::size_t t = 0; t < area.size(); ++t) {
-    area[t] = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm() / 2;
-    const auto s = static_cast<std::size_t>(mesh.surface[t]);
-    whole[s] += area[t];
-    if (world.surfaces[s].source == Source::measured) total += area[t];
-  }
-  std::vector<Place> places;
-  std::size_t owner = SIZE_MAX, taken = 0;
-  double step = 0, passed = 0;  // [m2] between places, and of the surface before this triangle
-  for (std::size_t t = 0; t < area.size(); ++t) {
-    const auto s = static_cast<std::size_t>(mesh.surface[t]);
-    if (world.surfaces[s].source != Source::measured) continue;
-    if (s != owner) {
-      const double share = std::ceil(static_cast<double>(options.places) * whole[s] / total);
-      step = whole[s] / std::max(share, static_cast<double>(options.places_each));
-      owner = s, taken = 0, passed = 0;
-    }
-    passed += area[t];
-    for (; (static_cast<double>(taken) + 0.5) * step < passed; ++taken) {
-      double ignored = 0;
-      double u = std::modf(0.5 + 0.7548776662466927 * static_cast<double>(taken), &ignored),
-             v = std::modf(0.5 + 0.5698402909980532 * static_cast<double>(taken), &ignored);
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      places.push_back(
-          {corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0)), s,
-           step});
-    }
-  }
-  return places;
-}
 
 // Where most of some numbers are: the median of those in the densest window of this width.
 double densest(std::vector<double> values, double width) {
@@ -143,8 +61,8 @@ class Measurement {
   Measurement(const World& world, const PointCloud& cloud, const FidelityOptions& options)
       : world_(world), cloud_(cloud, world.frame), options_(options), scene_(world) {
     if (cloud.points.empty()) throw Error(Cause::bad_input, "the scan has no points");
-    cover_ = std::hypot(options.cover_per_spacing * options.spacing, tolerance_of(options.noise));
-    max_distance_ = std::max(options.max_distance, 2 * cover_);
+    const double sparse = options.cover_per_spacing * options.spacing;
+    max_distance_ = std::max(options.max_distance, 2 * std::hypot(sparse, options.max_tolerance));
     points_ = sample_points(cloud_, options.points);
     if (options.depth_step > 0)
       camera_ = cloud.viewpoints.empty() ? cloud_.to_world(Vec3::Zero()) : viewpoints()[0];
@@ -161,6 +79,8 @@ class Measurement {
       near_[i] = scene_.nearest(points_[i], max_distance_);
     });
     refuse_another_place();
+    bend_ = std::min(measure_bend(world, points_, near_), options.max_bend);
+    cover_ = std::hypot(sparse, tolerance_of(options.noise));
   }
 
   Fidelity run() {
@@ -168,6 +88,7 @@ class Measurement {
     Fidelity result{.points = points_.size(),
                     .noise = noise,
                     .spacing = options_.spacing,
+                    .bend = bend_,
                     .tolerance = tolerance_of(noise),
                     .max_distance = max_distance_};
     for (const Surface& s : world_.surfaces)
@@ -176,14 +97,23 @@ class Measurement {
     look_at_places(result);
     describe_surfaces(result);
     if (!cloud_.cloud().viewpoints.empty()) look_along_rays(result);
+    result.floors = measure_floors(world_, scene_, options_.floors);
+    StrayOptions strays = options_.strays;
+    strays.near = std::max(strays.near, cover_);
+    result.strays = find_stray_surfaces(world_, strays);
     return result;
   }
 
  private:
   std::vector<Vec3> viewpoints() const { return cloud_.viewpoints(); }
 
+  // What a depth camera's model says is believed; noise and bend that were found may be those of a
+  // scan that has no surfaces.
   double tolerance_of(double noise) const {
-    return std::max(options_.tolerance_per_noise * noise, options_.min_tolerance);
+    const double scatter = options_.tolerance_per_noise * std::hypot(noise, bend_);
+    const double most =
+        noise > options_.noise ? options_.tolerance_per_noise * noise : options_.max_tolerance;
+    return std::clamp(scatter, options_.min_tolerance, std::max(most, options_.max_tolerance));
   }
 
   void refuse_another_place() const {
@@ -216,11 +146,13 @@ class Measurement {
   void look_at_points(Fidelity& result) {
     std::vector<std::pair<double, double>> distances(points_.size());
     explained_.resize(points_.size());
+    std::vector<char> inside(points_.size());
     result.atlas.points.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
       double distance = near_[i] ? near_[i]->distance : max_distance_;
       const double tolerance = tolerance_of(noise_[i]);
-      if (distance > tolerance && is_in_obstacle(points_[i])) distance = 0;
+      inside[i] = distance > tolerance && is_in_obstacle(points_[i]);
+      if (inside[i]) distance = 0;
       explained_[i] = distance <= tolerance;
       distances[i] = {distance, 1};
       const bool on_surface = explained_[i] && near_[i] && near_[i]->is_surface;
@@ -229,14 +161,23 @@ class Measurement {
                                 explained_[i] != 0};
     });
     result.scan_to_world = distances_of(std::move(distances));
+    std::size_t near = 0, close = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (result.atlas.points[i].surface < 0) continue;
+      ++near, close += near_[i]->distance <= tolerance_of(noise_[i]) / 2;
+    }
+    if (near > 0) result.close = static_cast<double>(close) / static_cast<double>(near);
+    result.inside = static_cast<double>(std::count(inside.begin(), inside.end(), 1)) /
+                    static_cast<double>(points_.size());
     result.unexplained = static_cast<double>(std::count(explained_.begin(), explained_.end(), 0)) /
                          static_cast<double>(points_.size());
   }
 
   void look_at_places(Fidelity& result) const {
-    const std::vector<Place> places = sample_surfaces(world_, options_);
+    const std::vector<PlaceOnSurface> places =
+        sample_surfaces(world_, options_.places, options_.places_each);
     std::vector<Vec3> at;
-    for (const Place& place : places) at.push_back(place.at);
+    for (const PlaceOnSurface& place : places) at.push_back(place.at);
     const std::vector<double> distances =
         nearest_point_distances(at, cloud_, cover_ / 2, max_distance_);
     std::vector<std::pair<double, double>> weighted;
@@ -321,7 +262,7 @@ class Measurement {
   const CloudInWorld cloud_;
   const FidelityOptions& options_;
   const RayScene scene_;
-  double cover_ = 0, max_distance_ = 0;  // [m]
+  double cover_ = 0, max_distance_ = 0, bend_ = 0;  // [m]
   Vec3 camera_ = Vec3::Zero();
   std::vector<Vec3> points_;
   std::vector<double> noise_;                 // [m] of each point
@@ -332,14 +273,27 @@ class Measurement {
 };
 
 void judge(Fidelity& f, const FidelityOptions& o) {
+  const std::string viewpoints = "viewpoints", floor = "floor";
+  const auto of_floor = [&](double value) {
+    return f.floors.area > 0 ? std::optional(value / f.floors.area) : std::nullopt;
+  };
   f.criteria = {
       {"median distance of the points", "m", f.scan_to_world.median,
-       std::max(o.max_median_per_noise * f.noise, o.min_tolerance / 2)},
+       std::max(o.max_median_per_noise * f.tolerance / o.tolerance_per_noise, o.min_tolerance / 2)},
       {"unexplained points", "%", f.unexplained, o.max_unexplained},
+      {"points close to their surfaces", "%", f.close, o.min_close, true},
+      {"points inside obstacles", "%", f.inside, o.max_inside},
       {"coverage of the surfaces", "%", f.coverage, o.min_coverage, true},
       {"surfaces off their points", "", static_cast<double>(f.misplaced.size()), 0},
-      {"free-space violations", "%", f.free_space_violations, o.max_violations},
-      {"leaks", "%", f.leaks, o.max_leaks},
+      {"floor pieces", "per 100 m2", of_floor(f.floors.most_pieces() * f.floors.area), o.max_pieces,
+       false, floor},
+      {"steps in floors", "m per 100 m2", of_floor(100 * f.floors.steps), o.max_steps, false,
+       floor},
+      {"gaps in floors", "%", of_floor(f.floors.gaps), o.max_gaps, false, floor},
+      {"floating surfaces", "%", f.strays.floating_area / f.strays.area, o.max_floating},
+      {"crossing surfaces", "%", f.strays.crossings / f.strays.edges, o.max_crossings},
+      {"free-space violations", "%", f.free_space_violations, o.max_violations, false, viewpoints},
+      {"leaks", "%", f.leaks, o.max_leaks, false, viewpoints},
   };
 }
 
@@ -348,7 +302,7 @@ void judge(Fidelity& f, const FidelityOptions& o) {
 std::string figure_text(double value, const std::string& unit) {
   if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
   if (unit == "%") return fmt::format("{:.2f} %", 100 * value);
-  return fmt::format("{:.0f}", value);
+  return unit.empty() ? fmt::format("{:.0f}", value) : fmt::format("{:.3g} {}", value, unit);
 }
 
 bool Fidelity::is_faithful() const {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "floor_quality.h"
 #include "sight_lines.h"
+#include "stray_surfaces.h"
 #include "world.h"
 
 namespace scanworld {
@@ -23,6 +25,9 @@ struct FidelityOptions {
   double tolerance_per_noise = 4;  // a point on a surface is hardly ever farther from it than three
                                    // times the noise, and the surface may be off by as much as one
   double min_tolerance = 0.01;     // [m] nobody minds so little
+  double max_tolerance = 0.05;     // [m] however noisy or bent the scan is; only a depth camera's
+                                   // noise, which is known beforehand, may be more
+  double max_bend = 0.02;          // [m] of surfaces that are one; more is not their own
   double reach = 0.1;  // [m] points that are no farther from the surface that is nearest to them
                        // tell whether it is in its place; at least three times the tolerance
   double cover_per_spacing = 4;  // a place is covered if a point is so near; far from the scanner
@@ -44,6 +49,10 @@ struct FidelityOptions {
   double planar_cell = 0.4;  // [m] points that no surface explains lie on one where they are planar
                              // over so much; round things of half a metre are not
 
+  // What else is looked at.
+  FloorQualityOptions floors;
+  StrayOptions strays;
+
   // The limits of the verdict.
   double max_median_per_noise = 1.5;  // of the distance scan to world; 0.67 where all is right
   double max_unexplained = 0.05;      // share of the points; strays and mixed pixels are some 2 %
@@ -52,6 +61,14 @@ struct FidelityOptions {
   std::size_t min_points_each = 30;       // of a surface whose place is judged
   double max_violations = 0.01;           // share of the rays
   double max_leaks = 0.02;                // share of the rays
+  double min_close = 0.7;      // share of the points within the tolerance that are within half of
+                               // it; 0.5 where points are everywhere, 0.95 of those of a surface
+  double max_inside = 0.15;    // share of the points: things are seen from outside
+  double max_pieces = 2;       // of a floor, by the started 100 m2
+  double max_steps = 5;        // [m] small ones, by 100 m2 of floor: thresholds, and carpets' edges
+  double max_gaps = 0.01;      // share of the floors' area
+  double max_floating = 0.05;  // share of the surfaces' area
+  double max_crossings = 0.01;  // share of the edges' length
 };
 
 // Of distances between a scan and a world [m], up to Fidelity::max_distance.
@@ -84,29 +101,37 @@ struct ErrorAtlas {
 
 // One thing that a world must keep to be called faithful.
 struct Criterion {
-  std::string name, unit;       // the unit is "m", "%" or empty for a count
+  std::string name, unit;       // "m" and "%" are told in mm and per cent, others as they are, and
+                                // a count has none
   std::optional<double> value;  // nothing where it could not be measured
   double limit = 0;
-  bool is_minimum = false;  // else the limit is a maximum
+  bool is_minimum = false;   // else the limit is a maximum
+  std::string lacking = {};  // without which it cannot be measured, in words
 
   bool is_met() const { return !value || (is_minimum ? *value >= limit : *value <= limit); }
 };
 
-// A figure in this unit in words: lengths in millimetres, shares as per cent.
+// A figure in the unit of a criterion, in words: lengths in millimetres, shares as per cent.
 std::string figure_text(double value, const std::string& unit);
 
 struct Fidelity {
   std::size_t points = 0, places = 0, rays = 0;  // that were looked at
   double noise = 0, spacing = 0;  // [m] as given; of a depth camera's points the median noise
-  double tolerance = 0;           // [m] at this noise
+  double bend = 0;                // [m] how far surfaces are off planes by themselves
+  double tolerance = 0;           // [m] at this noise and bend
   double max_distance = 0;        // [m] as used
   Distances scan_to_world, world_to_scan;
   double coverage = 0;     // share of the surfaces' area that has points near
   double unexplained = 0;  // share of the points farther than the tolerance from all there is
+  double close = 0;   // share of the points within the tolerance of a surface that are within half
+  double inside = 0;  // share of the points that are in obstacles, farther than the tolerance from
+                      // all skins and surfaces
   std::optional<double> free_space_violations;  // share of the rays that go through the world
   std::optional<double> leaks;            // share of the rays that go on where they should end
   std::vector<SurfaceFidelity> surfaces;  // in the order of the world's
   std::vector<int> misplaced;             // ids of surfaces that are off their points
+  FloorQuality floors;
+  StraySurfaces strays;
   std::vector<Criterion> criteria;
   ErrorAtlas atlas;
 

@@ -46,6 +46,19 @@ void shuffle_points(PointCloud& cloud, std::uint64_t seed) {
   shuffle(cloud.points, random);
 }
 
+FoundSurface level_rectangle(double x0, double y0, double x1, double y1, double height) {
+  return {.plane = plane_through({0, 0, height}, Vec3::UnitZ()),
+          .outer = {{x0, y0, height}, {x1, y0, height}, {x1, y1, height}, {x0, y1, height}}};
+}
+
+FoundSurface upright_rectangle(const Vec3& from, const Vec3& to, double height) {
+  const Vec3 up = height * Vec3::UnitZ();
+  return {.plane = plane_through(from, up.cross(to - from).normalized()),
+          .outer = {from, from + up, to + up, to}};
+}
+
+World world_with(const std::vector<FoundSurface>& surfaces) { return assemble_world(surfaces, {}); }
+
 World small_world() {
   FoundSurface floor{.plane = {Vec3::UnitZ(), 0},
                      .outer = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}}};

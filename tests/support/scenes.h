@@ -21,6 +21,14 @@ PointCloud room_points(const Vec3& size, double spacing, double noise, std::uint
 PointCloud cloud_of(const std::vector<Vec3>& points);
 void shuffle_points(PointCloud& cloud, std::uint64_t seed);
 
+// A level rectangle seen from above, and an upright one over a line on the floor, seen from its
+// left.
+FoundSurface level_rectangle(double x0, double y0, double x1, double y1, double height);
+FoundSurface upright_rectangle(const Vec3& from, const Vec3& to, double height);
+
+// Just these surfaces.
+World world_with(const std::vector<FoundSurface>& surfaces);
+
 // The surfaces of an open box: floor, and a wall with a window hole.
 World small_world();
 
