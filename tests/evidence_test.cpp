@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rival/evidence.h"
 
+#include <cmath>
+#include <set>
+
 #include "support/stages.h"
 
 using namespace scanworld;
@@ -126,7 +129,7 @@ TEST_CASE("plates are kept that have the points and the area") {
   CHECK(is_kept(plate(0.4, 0.4, 0.02, 0.004)));
   CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.004), {.min_points = 1000}));
   CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.004), {.min_area = 0.5}));
-  CHECK_FALSE(is_kept(plate(0.1, 0.1, 0.01, 0.004)));
+  CHECK_FALSE(is_kept(plate(0.05, 0.05, 0.005, 0.002)));
   CHECK_FALSE(is_kept(plate(0.4, 0.4, 0.02, 0.03)));  // lost in the noise
   CHECK(is_kept(plate(0.6, 0.6, 0.02, 0.03)));
 }
@@ -158,29 +161,54 @@ TEST_CASE("a layer in the noise of a larger cluster goes, one behind it stays") 
   }
 }
 
-TEST_CASE("a small piece that goes on as something else is dropped, with those that then show") {
-  const Stages s = plate(1.2, 0.4, 0.02, 0.004);
-  const PlaneFrame frame = frame_of({Vec3(1, 2, 3).normalized(), 0});
-  // Three pieces in a row, the first of them among sites of no cluster.
-  const auto piece = [&](const Vec3& p) {
-    const double x = frame.to_plane(p).x();
-    return x < 0.3 ? kNone : std::min(static_cast<std::int32_t>((x - 0.3) / 0.3), 2);
+TEST_CASE("each trait moves the odds to the side that it speaks for") {
+  const Traits plane{.roughness = 0.9,
+                     .curvature = 0.01,
+                     .contact = 0.3,
+                     .explained = 0,
+                     .area = 0.2,
+                     .density = 1,
+                     .fill = 0.6};
+  const auto with = [&](auto change) {
+    Traits traits = plane;
+    change(traits);
+    return log_odds(traits);
   };
-  const auto left = [&](const EvidenceOptions& options) {
-    const Clustering c =
-        weigh_evidence(s.grid, s.neighbors, s.scale, label_sites(s.grid, piece), options);
-    std::size_t clusters = 0;
-    for (std::int32_t l : {0, 1, 2}) clusters += std::count(c.label.begin(), c.label.end(), l) > 0;
-    return clusters;
+  const double odds = log_odds(plane);
+  CHECK(odds > 0);
+  CHECK(with([](Traits& t) { t.roughness = 1.4; }) < odds);
+  CHECK(with([](Traits& t) { t.curvature = 0.4; }) < odds);
+  CHECK(with([](Traits& t) { t.contact = 0.9; }) < odds);
+  CHECK(with([](Traits& t) { t.explained = 0.5; }) < odds);
+  CHECK(with([](Traits& t) { t.area = 0.05; }) < odds);
+  CHECK(with([](Traits& t) { t.fill = 0.3; }) < odds);
+  // Far out of what was seen they say no more than at its limits.
+  CHECK(with([](Traits& t) { t.roughness = 9; }) == with([](Traits& t) { t.roughness = 2; }));
+  CHECK(std::isfinite(with([](Traits& t) { t.area = t.density = 0; })));
+}
+
+TEST_CASE("amid clutter more is asked of each small cluster") {
+  // Plates over each other, the lower ones rougher and rougher than noise.
+  const auto kept = [](int rough, double prior_share) {
+    PointCloud cloud;
+    Random random(6);
+    for (int k = 0; k < 40; ++k)
+      add_rectangle(cloud, {0, 0, 0.5 * k}, {0.3, 0, 0}, {0, 0.3, 0}, 0.015,
+                    k < rough ? 0.004 + 0.0002 * (rough - k) : 0.004, random);
+    const Stages s = run_stages(std::move(cloud), known_scale(0.004, 0.015));
+    const auto plate = [](const Vec3& p) {
+      return static_cast<std::int32_t>(std::lround(p.z() / 0.5));
+    };
+    const Clustering c = weigh_evidence(s.grid, s.neighbors, s.scale, label_sites(s.grid, plate),
+                                        {.prior_share = prior_share});
+    std::set<std::int32_t> labels(c.label.begin(), c.label.end());
+    labels.erase(kNone);
+    return labels.size();
   };
-  // Pieces of one plane explain each other; here only what is around them counts.
-  EvidenceOptions options{.explained_share = 2, .surrounded = 0.1};
-  for (int rounds : {0, 1, 2, 3, 9}) {
-    options.surrounded_rounds = rounds;
-    CHECK(left(options) == static_cast<std::size_t>(std::max(0, 3 - rounds)));
-  }
-  options.surrounded_area = 0.01;
-  CHECK(left(options) == 3);
+  CHECK(kept(0, 0) == 40);
+  CHECK(kept(0, 1) == 40);
+  CHECK(kept(30, 1) < kept(30, 0));
+  CHECK(kept(30, 1) >= 10);  // those that are not rough
 }
 
 TEST_CASE("sites that are dropped are awake, the others as before") {

@@ -9,29 +9,38 @@
 namespace scanworld::rival {
 
 struct EvidenceOptions {
-  double min_points = 60;
-  double min_area = 0.04;         // [m2]
+  double min_points = 40;
+  double min_area = 0.01;         // [m2]
   double area_noise = 18;         // and the square of this many times the noise
-  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge,
-  double min_breadth = 0.095;     // [m] or rims of things
-  double max_roughness = 1.3;     // [noise and bend] rms of the points off a small one
+  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge
   double min_density = 0.1;       // points where the spacing of the scan leads to expect one
   double sparse_points = 300;     // clusters with so many may be less dense
   double explained_share = 0.7;   // of the points that larger clusters next to them explain as well
   double explained_distance = 2;  // [noise] from the larger one's plane
-  double small_area = 2;          // [m2] smaller clusters may be pieces of something round
-  double bend_share = 0.05;       // of the variance off the plane that a bend may explain
-  double bend_chance = 15;        // over the number of points: the share that chance may explain
-  double bend_height = 0.3;       // [noise] rms of a bend that counts
-  double min_curvature = 0.3;     // [1/m] flatter bends are those of real walls and of calibration,
-  double high_bend = 0.005;       // [m] unless their rms is more than this
-  double surrounded = 0.5;        // points in no cluster around a small one, per point of its own
-  double surrounded_area = 0.5;   // [m2] of a small one in this sense
-  int surrounded_rounds = 3;
+  double small_area = 2;          // [m2] smaller clusters are weighed: they may be pieces of things
+  double min_log_odds = -0.6;     // that a small one is a plane; under 0, as one lost costs more
+  double prior_share = 0.5;  // of what the scan's own share of planes would add to the odds ...
+  double max_prior = 1.5;    // ... and the most of it
 };
 
+// What tells a small cluster that is a plane from a piece of something soft or round.
+struct Traits {
+  double roughness = 0;  // rms off its plane, over that of noise and bend
+  double curvature = 0;  // share of its variance off the plane that a quadric explains
+  double contact = 0;    // share of its sites that are beside those of other clusters
+  double explained = 0;  // share of its points that larger clusters explain as well
+  double area = 0;       // [m2]
+  double density = 0;    // points where the spacing of the scan leads to expect one
+  double fill = 0;       // share that it has of the smallest rectangle around it
+};
+
+// The logarithm of the odds that a cluster with these traits is a plane.
+double log_odds(const Traits& traits);
+
 // Drops the clusters that are no planes: too small or sparse, layers in the noise of larger ones,
-// bent, or going on as something round.
+// and small ones that look like pieces of something else. What they look like is weighed by odds
+// (logistic regression; Cox 1958), which are moved by the share of planes in the scan itself
+// (Saerens, Latinne and Decaestecker 2002): amid clutter more is asked of each.
 Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                           Clustering clustering, const EvidenceOptions& options = {});
 
