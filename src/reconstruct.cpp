@@ -8,6 +8,7 @@
 
 #include "error.h"
 #include "record.h"
+#include "rival/curve_points.h"
 #include "surface/describe.h"
 #include "thesis/labels.h"
 #include "thesis/triangulation.h"
@@ -20,6 +21,7 @@
 #include "world/mend.h"
 #include "world/obstacles.h"
 #include "world/openings.h"
+#include "world/round_solids.h"
 
 namespace scanworld {
 
@@ -135,10 +137,47 @@ std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::
   return facings;
 }
 
+// The curves of a scan and the points on them, as planes: facets of those that bound the place.
+struct CutCurves {
+  std::vector<Curve> curves;
+  std::vector<std::optional<surface::Facets>> facets;  // none of solids
+  std::vector<std::size_t> first;            // for each curve the plane of its first facet
+  std::vector<std::int32_t> curve_of_plane;  // -1 of what is flat
+
+  // The plane of a point on a curve; -1 on a solid.
+  std::int32_t plane_of(std::int32_t curve, const Vec3& p) const {
+    const auto& cut = facets[static_cast<std::size_t>(curve)];
+    return cut ? static_cast<std::int32_t>(first[static_cast<std::size_t>(curve)] + cut->of(p))
+               : -1;
+  }
+};
+
+// Adds the facets to the planes, and labels the points on them.
+CutCurves cut_curves(const PointCloud& cloud, const std::vector<Curve>& curves,
+                     const surface::FacetOptions& options, std::vector<Plane>& planes,
+                     ReconstructResult& result) {
+  CutCurves parts{.curves = curves, .curve_of_plane = std::vector<std::int32_t>(planes.size(), -1)};
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    parts.first.push_back(planes.size());
+    parts.facets.emplace_back();
+    if (is_solid(curves[k])) continue;
+    const auto& facets = parts.facets.back().emplace(curves[k], options).planes();
+    planes.insert(planes.end(), facets.begin(), facets.end());
+    parts.curve_of_plane.resize(planes.size(), static_cast<std::int32_t>(k));
+    result.report.plane_noise.resize(planes.size(),
+                                     std::hypot(curves[k].support.rms, options.sagitta / 3));
+  }
+  for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
+    if (const std::int32_t c = result.curve_labels[i]; c >= 0)
+      result.labels[i] = parts.plane_of(c, cloud.points[i].cast<double>());
+  return parts;
+}
+
 // What a method finds.
 struct Found {
   std::vector<FoundSurface> surfaces;
   surface::Surroundings around;
+  std::vector<Curve> curves;
 };
 
 // The lines of sight to what is around.
@@ -160,9 +199,10 @@ std::vector<Vec3> places_of(const surface::Surroundings& around, const CloudInWo
 
 // The planes' polygons. A plane's points are labelled with its largest piece.
 template <typename Around>
-Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, double voxel,
-                    const Around& find_around, const surface::SurfaceOptions& options,
-                    StageLog& log, ReconstructResult& result, Recorder& recorder) {
+Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
+                    const CutCurves& round, double voxel, const Around& find_around,
+                    const surface::SurfaceOptions& options, StageLog& log,
+                    ReconstructResult& result, Recorder& recorder) {
   using namespace surface;
   Members members;
   std::optional<PatchRays> rays;
@@ -209,9 +249,14 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes, d
     const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
     recorder.add("Arrangement", "corners that are nearly one become one", loops_of(welded));
     relabel(welded, planes.size(), result);
-    return describe(cloud, members, patches, pieces.planes, welded);
+    std::vector<FoundSurface> found = describe(cloud, members, patches, pieces.planes, welded);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (const auto plane = static_cast<std::size_t>(welded[k].patch);
+          plane < planes.size() && round.curve_of_plane[plane] >= 0)
+        found[k].curve = round.curve_of_plane[plane];
+    return found;
   });
-  return {std::move(surfaces), std::move(around)};
+  return {std::move(surfaces), std::move(around), round.curves};
 }
 
 // The default method, docs/method.md.
@@ -220,7 +265,7 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   using namespace rival;
   const RivalOptions& options = all.rival;
   Scale scale = log.run("Estimating the scale", "points -> lengths", cloud,
-                              [&] { return estimate_scale(cloud, options.scale); });
+                        [&] { return estimate_scale(cloud, options.scale); });
   result.report.scale = scale.voxel;
   result.report.spacing = scale.spacing;
   result.report.noise = scale.noise;
@@ -247,12 +292,19 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   const auto grow = [&](const Observer& observe) {
     return grow_clusters(grid, neighbors, scale, local, {}, options.growth, observe);
   };
-  scale.flatness = log.run("Measuring flatness", "sites -> lengths", local, [&] {
-    return find_flatness(grid, neighbors, scale, grow({}), options);
+  Clustering clusters =
+      log.run("Growing clusters", "sites -> clusters", local, [&] { return grow({}); });
+  const Curves curves = log.run("Finding curves", "clusters -> curves", clusters, [&] {
+    Curves found = find_curves(grid, neighbors, scale, local, clusters, options.curves);
+    set_aside(found, grid, neighbors, local, clusters);
+    return found;
+  });
+  scale.flatness = log.run("Measuring flatness", "clusters -> lengths", clusters, [&] {
+    return find_flatness(grid, neighbors, scale, std::move(clusters), options);
   });
   result.report.flatness = scale.flatness.bend_at(1);
-  Clustering clusters = log.run("Growing clusters", "sites -> clusters", local,
-                                [&] { return grow(watch(recorder, "Growth")); });
+  clusters = log.run("Growing on what bends", "sites -> clusters", local,
+                     [&] { return grow(watch(recorder, "Growth")); });
   clusters = log.run("Rivalry", "clusters -> clusters", clusters, [&] {
     return settle(grid, neighbors, scale, local, std::move(clusters), options,
                   watch(recorder, "Rivalry"));
@@ -278,13 +330,40 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   for (const LabelledPlane& plane : labelled.planes) planes.push_back(plane.fit.plane);
   recorder.add("Evidence", "planes are turned parallel and square where the points allow it",
                labels_by(labelled.plane_of, clusters.label), planes);
+  if (!curves.curves.empty())
+    result.curve_labels = label_curve_points(cloud, grid, scale, curves, options.curves);
+  const CutCurves round = cut_curves(cloud, curves.curves, all.surface.facets, planes, result);
   const double voxel = grid.voxel;
   const auto find_around = [&] {
     surface::Surroundings around = surroundings_of(grid, clusters, labelled.plane_of);
+    for (std::size_t i = 0; i < around.planes.size(); ++i)
+      if (const std::int32_t c = curves.of_site[i]; c != kNone)
+        around.planes[i] = round.plane_of(c, grid.sites[i].position());
     grid = {}, neighbors = {};
     return around;
   };
-  return make_surfaces(cloud, planes, voxel, find_around, all.surface, log, result, recorder);
+  return make_surfaces(cloud, planes, round, voxel, find_around, all.surface, log, result,
+                       recorder);
+}
+
+// Adds the curves that are facets of surfaces or solids on their own. Which side is free is what
+// their facets say.
+void add_curves(const std::vector<Curve>& curves, World& world) {
+  std::vector<double> inwards(curves.size());
+  for (const Surface& s : world.surfaces)
+    if (s.curve) {
+      const auto k = static_cast<std::size_t>(*s.curve);
+      const Vec3 out = curves[k].shape.normal_at(centroid(world, s));
+      inwards[k] += out.dot(s.plane.normal) < 0 ? area(world, s) : -area(world, s);
+    }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    CurvedPart part{static_cast<int>(k), curves[k]};
+    if (is_solid(curves[k]))
+      world.obstacles.push_back({.shape = solid_of(curves[k], world.frame.up), .curve = part.id});
+    else
+      part.curve.hollow = inwards[k] > 0;
+    world.curves.push_back(std::move(part));
+  }
 }
 
 // Takes over a mended world: labels and what is told of each surface follow.
@@ -301,9 +380,8 @@ void take(Mended mended, ReconstructResult& result) {
   warnings.insert(warnings.end(), mended.warnings.begin(), mended.warnings.end());
   result.world = std::move(mended.world);
   if (result.world.surfaces.empty())
-    throw Error(Cause::nothing_found,
-                fmt::format("none of the {} surfaces found can be kept: {}", id_of.size(),
-                            fmt::join(mended.warnings, "; ")));
+    throw Error(Cause::nothing_found, fmt::format("none of the {} surfaces found can be kept: {}",
+                                                  id_of.size(), fmt::join(mended.warnings, "; ")));
 }
 
 // Adds the solids of what no surface explains.
@@ -311,13 +389,18 @@ void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, St
                      ReconstructResult& result) {
   const ClutterScale scale{result.report.noise, result.report.spacing};
   Obstacles obstacles = log.run("Enclosing clutter", "points -> obstacles", cloud, [&] {
-    return find_obstacles(cloud, result.labels, result.world, scale, options);
+    std::vector<std::int32_t> explained = result.labels;
+    for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
+      if (result.curve_labels[i] >= 0) explained[i] = 0;
+    return find_obstacles(cloud, explained, result.world, scale, options);
   });
   if (obstacles.left_out > 0)
     result.report.warnings.push_back(
         fmt::format("{} obstacles, the smallest, are left out: no more than {} are asked for",
                     obstacles.left_out, options.max_obstacles));
-  result.world.obstacles = std::move(obstacles.kept);
+  std::vector<Obstacle>& all = result.world.obstacles;
+  all.insert(all.end(), obstacles.kept.begin(), obstacles.kept.end());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].id = static_cast<int>(k);
 }
 
 }  // namespace
@@ -326,10 +409,11 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 24);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 26);
   Found found = options.method == Method::thesis
                     ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder),
-                            {.viewpoints = cloud.viewpoints}}
+                            {.viewpoints = cloud.viewpoints},
+                            {}}
                     : find_by_rival(cloud, options, log, result, recorder);
   drop_degenerate(found.surfaces, result);
   if (found.surfaces.empty())
@@ -348,6 +432,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
     for (const Vec3& v : found.around.viewpoints) viewpoints.push_back(place.to_world(v));
     return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints);
   });
+  add_curves(found.curves, world);
   found = {};
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
                                               [&] { return pair_faces(world, options.thickness); });
@@ -355,6 +440,9 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival) enclose_clutter(cloud, options.obstacles, log, result);
+  // A label names a surface; a curve has many.
+  for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
+    if (result.curve_labels[i] >= 0) result.labels[i] = -1;
   world = level_world(std::move(world), options.frame);
   RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
                         [&] { return find_rooms(world, options.rooms); });

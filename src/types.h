@@ -136,6 +136,7 @@ struct FoundSurface {
   Source source = Source::measured;
   Support support;
   std::optional<Color> color;  // the mean of its points'
+  std::optional<int> curve;    // the curve that it is a facet of, by number
 };
 
 }  // namespace scanworld

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "reconstruct.h"
 #include "support/stages.h"
 
 using namespace scanworld;
@@ -97,21 +98,18 @@ TEST_CASE("spheres have no planes") {
     }
 }
 
-TEST_CASE("round columns, seen sharply for their width, have no planes") {
-  Random random(2);
-  for (const auto& [radius, noise] : {std::pair(0.15, 0.003), {0.15, 0.002}, {0.2, 0.002}}) {
-    CAPTURE(radius);
-    CHECK(found_beside_floor(column_points(radius, noise, random), noise) == 0);
-  }
-}
-
-TEST_CASE("wide round columns have no planes, nor those in more noise") {
+TEST_CASE("round columns are no planes once round parts are found") {
   Random random(2);
   for (double noise : {0.002, 0.003, 0.005, 0.01})
-    for (double radius : {0.15, 0.25, 0.35, 0.5}) {
+    for (double radius : {0.15, 0.2, 0.25, 0.35, 0.5}) {
       CAPTURE(noise);
       CAPTURE(radius);
-      CHECK(found_beside_floor(column_points(radius, noise, random), noise) == 0);
+      const PointCloud cloud = column_points(radius, noise, random);
+      const std::vector<std::int32_t> labels = reconstruct(cloud).labels;
+      std::size_t on_column = 0, in_planes = 0;
+      for (std::size_t i = 0; i < labels.size(); ++i)
+        if (cloud.points[i].z() > 0.1) ++on_column, in_planes += labels[i] >= 0;
+      CHECK(in_planes < on_column / 20);
     }
 }
 
@@ -188,13 +186,15 @@ TEST_CASE("each trait moves the odds to the side that it speaks for") {
 }
 
 TEST_CASE("amid clutter more is asked of each small cluster") {
-  // Plates over each other, the lower ones rougher and rougher than noise.
-  const auto kept = [](int rough, double prior_share) {
+  // Plates over each other: some far rougher than noise, the others from smooth to a bit rough.
+  const auto kept = [](int clutter, double prior_share) {
     PointCloud cloud;
     Random random(6);
-    for (int k = 0; k < 40; ++k)
-      add_rectangle(cloud, {0, 0, 0.5 * k}, {0.3, 0, 0}, {0, 0.3, 0}, 0.015,
-                    k < rough ? 0.004 + 0.0002 * (rough - k) : 0.004, random);
+    for (int k = 0; k < 60; ++k) {
+      const double roughness = k < clutter ? 3 : 1 + 0.1 * (k % 15);
+      add_rectangle(cloud, {0, 0, 0.5 * k}, {0.3, 0, 0}, {0, 0.3, 0}, 0.015, 0.004 * roughness,
+                    random);
+    }
     const Stages s = run_stages(std::move(cloud), known_scale(0.004, 0.015));
     const auto plate = [](const Vec3& p) {
       return static_cast<std::int32_t>(std::lround(p.z() / 0.5));
@@ -203,12 +203,13 @@ TEST_CASE("amid clutter more is asked of each small cluster") {
                                         {.prior_share = prior_share});
     std::set<std::int32_t> labels(c.label.begin(), c.label.end());
     labels.erase(kNone);
-    return labels.size();
+    return labels;
   };
-  CHECK(kept(0, 0) == 40);
-  CHECK(kept(0, 1) == 40);
-  CHECK(kept(30, 1) < kept(30, 0));
-  CHECK(kept(30, 1) >= 10);  // those that are not rough
+  const auto alone = kept(45, 0), weighed = kept(45, 1);
+  CHECK(weighed.size() < alone.size());
+  CHECK(weighed.size() > 2);
+  CHECK(*weighed.begin() >= 45);
+  CHECK(kept(0, 1).size() > kept(0, 0).size());
 }
 
 TEST_CASE("sites that are dropped are awake, the others as before") {

@@ -208,6 +208,18 @@ TEST_CASE("a vertex that is nowhere takes with it what has it, and nothing else"
   CHECK(kept.world.rooms.size() == 2);
 }
 
+TEST_CASE("facets and columns stay when their curve is no good") {
+  World world = full_world();
+  world.curves[0].curve.shape.radius = -1;
+  const Mended kept = leave_out_invalid(world);
+  check_valid(kept);
+  CHECK(kept.world.curves.size() == 1);
+  CHECK(kept.world.surfaces.size() == 2);
+  CHECK(kept.world.obstacles.size() == 3);
+  CHECK_FALSE(kept.world.obstacles[2].curve);
+  CHECK(kept.world.surfaces[1].curve == 5);
+}
+
 TEST_CASE("surfaces of corners by chance are mended or left out") {
   Random random(3);
   for (int run = 0; run < 200; ++run) {

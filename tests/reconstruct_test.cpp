@@ -67,6 +67,51 @@ TEST_CASE("a round column is a cylinder, an octagonal one has eight walls") {
   }
 }
 
+TEST_CASE("a hall with a barrel vault and a column holds both as what they are") {
+  Random random(5);
+  PointCloud cloud;
+  const double noise = 0.004, radius = 2;
+  for (double y : {0.0, 2 * radius})
+    add_rectangle(cloud, {0, y, 0}, {6, 0, 0}, {0, 0, 2.2}, 0.025, noise, random);
+  add_rectangle(cloud, {0, 0, 0}, {6, 0, 0}, {0, 2 * radius, 0}, 0.025, noise, random);
+  for (int i = 0; i < 60000; ++i) {
+    const double angle = random.uniform(0, M_PI), r = radius + noise * random.gauss();
+    cloud.points.emplace_back(
+        Vec3(random.uniform(0, 6), radius + r * std::cos(angle), 2.2 + r * std::sin(angle))
+            .cast<float>());
+  }
+  for (int i = 0; i < 15000; ++i) {
+    const double angle = random.uniform(0, 2 * M_PI), r = 0.3 + noise * random.gauss();
+    cloud.points.emplace_back(
+        Vec3(3 + r * std::cos(angle), 2 + r * std::sin(angle), random.uniform(0, 2.5))
+            .cast<float>());
+  }
+  const ReconstructResult result = reconstruct(cloud);
+  const World& world = result.world;
+  CHECK(validate(world).empty());
+  CHECK(parse_world(world_text(world)) == world);
+  REQUIRE(world.curves.size() == 2);
+  const bool vault_first = world.curves[0].curve.shape.radius > 1;
+  const CurvedPart& vault = world.curves[vault_first ? 0 : 1];
+  const CurvedPart& column = world.curves[vault_first ? 1 : 0];
+  CHECK(vault.curve.hollow);
+  CHECK_FALSE(column.curve.hollow);
+  std::size_t facets = 0, flat = 0;
+  for (const Surface& s : world.surfaces) {
+    facets += s.curve == vault.id, flat += !s.curve;
+    if (s.curve) CHECK(s.plane.signed_distance(vault.curve.shape.point) > 0);  // they look inwards
+  }
+  CHECK(facets > 8);
+  CHECK(facets < 20);
+  CHECK(flat == 3);
+  REQUIRE(world.obstacles.size() == 1);
+  CHECK(world.obstacles[0].curve == column.id);
+  CHECK(std::get<Cylinder>(world.obstacles[0].shape).radius == doctest::Approx(0.3).epsilon(0.03));
+  REQUIRE(result.curve_labels.size() == cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (result.curve_labels[i] >= 0) CHECK(result.labels[i] == -1);
+}
+
 TEST_CASE("the world's text is the same for any number of threads and any order of the points") {
   PointCloud cloud = scan_of("office", 120000);
   const std::string before = world_text(reconstruct(cloud).world);

@@ -73,6 +73,16 @@ TEST_CASE("each fault is found and named") {
       "3 vertices"));
   CHECK(contains(reason([](World& w) { std::get<Cylinder>(w.obstacles[2].shape).radius = -1; }),
                  "obstacle 2"));
+  CHECK(contains(reason([](World& w) { w.surfaces[0].curve = 9; }), "there is no curve 9"));
+  CHECK(contains(reason([](World& w) { w.obstacles[0].curve = 8; }), "there is no curve 8"));
+  CHECK(contains(reason([](World& w) { w.curves[1].id = 4; }), "curve 4"));
+  CHECK(contains(reason([](World& w) { w.curves[0].curve.shape.axis *= 2; }),
+                 "curve 4: the axis is not of length 1"));
+  CHECK(contains(reason([](World& w) { w.curves[0].curve.start = Vec3::UnitZ(); }),
+                 "curve 4: the start"));
+  CHECK(contains(reason([](World& w) { w.curves[1].curve.shape.radius = NAN; }), "radius"));
+  CHECK(contains(reason([](World& w) { w.curves[1].curve.high = -1; }), "extent"));
+  CHECK(contains(reason([](World& w) { w.curves[1].curve.sweep = 7; }), "sweep"));
   CHECK(contains(reason([](World& w) { w.colliders[1].surface = 8; }),
                  "collider 1: there is no surface 8"));
   CHECK(contains(

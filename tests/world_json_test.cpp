@@ -45,7 +45,7 @@ TEST_CASE("random numbers of any size survive writing and reading") {
 
 TEST_CASE("what is wrong in a file is named by its place") {
   using P = Json::json_pointer;
-  CHECK(contains(error_with(P("/schema/version"), 2), "w.json: world.schema: version 2"));
+  CHECK(contains(error_with(P("/schema/version"), 3), "w.json: world.schema: version 3"));
   CHECK(contains(error_with(P("/schema/name"), "other"), "not 'scanworld'"));
   CHECK(contains(error_with(P("/surfaces/1/kind"), "roof"),
                  "world.surfaces[1].kind: 'roof' is none of floor"));
@@ -88,6 +88,17 @@ TEST_CASE("the hash changes with the world, not with where it comes from") {
   CHECK(world_hash(world) == before);
   world.vertices[0].x() += 1e-6;
   CHECK(world_hash(world) != before);
+}
+
+TEST_CASE("a world is of version 2 only where something is round, and both are read") {
+  World world = full_world();
+  CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
+  world.curves.clear();
+  world.surfaces[1].curve.reset(), world.obstacles[2].curve.reset();
+  const std::string flat = world_text(world);
+  CHECK(Json::parse(flat)["schema"]["version"] == 1);
+  CHECK_FALSE(contains(flat, "curve"));
+  CHECK(parse_world(flat, "w.json") == world);
 }
 
 TEST_CASE("the worlds that come with the program are valid text of this version") {

@@ -18,7 +18,7 @@ struct EvidenceOptions {
   double explained_share = 0.7;   // of the points that larger clusters next to them explain as well
   double explained_distance = 2;  // [noise] from the larger one's plane
   double small_area = 2;          // [m2] smaller clusters are weighed: they may be pieces of things
-  double min_log_odds = -0.6;     // that a small one is a plane; under 0, as one lost costs more
+  double min_log_odds = -0.9;     // that a small one is a plane; under 0, as one lost costs more
   double prior_share = 0.5;  // of what the scan's own share of planes would add to the odds ...
   double max_prior = 1.5;    // ... and the most of it
 };

@@ -30,7 +30,8 @@ Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& sca
   wider.max_reach = options.birth_reach;
   std::vector<std::uint8_t> left(grid.sites.size());
   for (int round = 0; round < options.birth_rounds; ++round) {
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] = c.label[i] == kNone;
+    for (std::size_t i = 0; i < left.size(); ++i)
+      left[i] = c.label[i] == kNone && !neighbors.of(i).empty();
     const Neighbors around = find_neighbors(grid, wider, left);
     local = fit_locally(grid, around, scale, options.local, std::move(local));
     c = grow_clusters(grid, around, scale, local, std::move(c), options.growth);
@@ -166,6 +167,44 @@ OptionList list_options(RivalOptions& o) {
       {"rival.columns.max_radius", &o.columns.max_radius, "m", "a wider curve is a wall", 0},
       {"rival.columns.max_noise", &o.columns.max_noise, "noise",
        "rms of the points off a round column", 0},
+      {"rival.curves.min_radius", &o.curves.min_radius, "m",
+       "of what is found as a curve; thinner things are left to the obstacles", 0},
+      {"rival.curves.max_radius", &o.curves.max_radius, "m",
+       "wider curves are walls that are not quite flat; 0 = no curves are found", 0},
+      {"rival.curves.roundness", &o.curves.roundness, "radius",
+       "that built things are off round, beside the noise", 0, 0.1},
+      {"rival.curves.max_distance", &o.curves.max_distance, "noise and roundness",
+       "a site with one point is taken from no farther", 0},
+      {"rival.curves.max_rms", &o.curves.max_rms, "noise and roundness",
+       "one with many may be no rougher", 0},
+      {"rival.curves.max_own", &o.curves.max_own, "noise and roundness",
+       "nor may a curve as a whole", 0},
+      {"rival.curves.max_angle", &o.curves.max_angle, "rad",
+       "between a curve and the planes of its sites' neighbourhoods", 0, 1.5},
+      {"rival.curves.weight", &o.curves.weight, "", "points of a site that count", 1},
+      {"rival.curves.min_points", &o.curves.min_points, "", "curves of fewer are none", 0},
+      {"rival.curves.min_area", &o.curves.min_area, "m2", "and those with less that has points", 0},
+      {"rival.curves.min_bend", &o.curves.min_bend, "m", "and those with a smaller sagitta", 0},
+      {"rival.curves.min_height", &o.curves.min_height, "m", "of a column or pipe", 0},
+      {"rival.curves.min_slimness", &o.curves.min_slimness, "radius", "and of its height at least",
+       0},
+      {"rival.curves.min_sweep", &o.curves.min_sweep, "rad", "of its side that was seen", 0, 6},
+      {"rival.curves.min_cover", &o.curves.min_cover, "", "share of its extent that has points", 0,
+       1},
+      {"rival.curves.min_gain", &o.curves.min_gain, "",
+       "squared noise per point that planes explain it worse"},
+      {"rival.curves.max_turn", &o.curves.max_turn, "rad",
+       "rms between it and the planes of its neighbourhoods", 0},
+      {"rival.curves.min_wide", &o.curves.min_wide, "m2 rad2",
+       "of a curve wider than a column, area times the square of its sweep", 0},
+      {"rival.curves.min_dome", &o.curves.min_dome, "rad", "sweep of a sphere", 0, 6},
+      {"rival.curves.min_wide_cover", &o.curves.min_wide_cover, "", "as min_cover, of a wide one",
+       0, 1},
+      {"rival.curves.min_wide_gain", &o.curves.min_wide_gain, "",
+       "as min_gain: many narrow planes may explain a vault better", -10, 10},
+      {"rival.curves.max_wide_turn", &o.curves.max_wide_turn, "rad", "as max_turn", 0},
+      {"rival.curves.max_point_distance", &o.curves.max_point_distance, "noise and roundness",
+       "points farther from a curve are not on it", 0},
       {"rival.regularise.max_angle", &o.regularise.max_angle, "rad",
        "planes that differ by less may be parallel or square; 0 = none is turned", 0, 0.5},
       {"rival.regularise.max_rise", &o.regularise.max_rise, "",

@@ -8,6 +8,7 @@
 #include "../options.h"
 #include "bridge.h"
 #include "columns.h"
+#include "curves.h"
 #include "evidence.h"
 #include "flatness.h"
 #include "growth.h"
@@ -38,6 +39,7 @@ struct RivalOptions {
   BridgeOptions bridge;
   EvidenceOptions evidence;
   ColumnOptions columns;
+  CurveOptions curves;
   RegulariseOptions regularise;
   LabelOptions labels;
 };

@@ -171,6 +171,10 @@ Pieces outline_patches(const std::vector<Patch>& patches, std::vector<std::vecto
 OptionList list_options(SurfaceOptions& o) {
   return {
       {"surface.patch.margin", &o.patch.margin, "m", "around the points of a plane", 0.05},
+      {"surface.facets.sagitta", &o.facets.sagitta, "m",
+       "from a chord of a facet to the curve that it stands for, at most", 1e-3},
+      {"surface.facets.min_turn", &o.facets.min_turn, "rad",
+       "between neighbouring facets, as planes at less do not meet", 0.05, 1.5},
       {"surface.facing.places", &o.facing.places, "",
        "of a surface that are looked from to find its free side", 1},
       {"surface.facing.directions", &o.facing.directions, "", "from each place to each side", 1},

@@ -7,6 +7,7 @@
 
 #include "../options.h"
 #include "choose_cells.h"
+#include "facets.h"
 #include "facing.h"
 #include "free_edges.h"
 #include "gaps.h"
@@ -19,6 +20,7 @@ namespace scanworld::surface {
 
 struct SurfaceOptions {
   PatchOptions patch;
+  FacetOptions facets;
   FacingOptions facing;
   SeamOptions seams;
   GapOptions gaps;

@@ -126,7 +126,8 @@ World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& fra
                     .plane = found.plane,
                     .outer = pool.add(found.outer),
                     .support = found.support,
-                    .color = found.color};
+                    .color = found.color,
+                    .curve = found.curve};
     for (const auto& hole : found.holes) surface.holes.push_back(pool.add(hole));
     world.surfaces.push_back(std::move(surface));
   }

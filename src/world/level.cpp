@@ -66,6 +66,11 @@ World moved(World world, const Eigen::Quaterniond& rotation, const Vec3& shift) 
   }
   for (Room& r : world.rooms)
     if (r.center) r.center = motion(*r.center).unaryExpr(&rounded);
+  for (CurvedPart& c : world.curves) {
+    RoundShape& shape = c.curve.shape;
+    shape.point = motion(shape.point), shape.axis = (motion.rotation * shape.axis).normalized();
+    c.curve.start = (motion.rotation * c.curve.start).normalized();
+  }
   const auto apply = [&](auto& shape) { motion.apply(shape); };
   for (Obstacle& o : world.obstacles) std::visit(apply, o.shape);
   for (Collider& c : world.colliders) std::visit(apply, c.shape);

@@ -37,6 +37,7 @@ World alone(const World& world, Surface surface) {
   };
   take(surface.outer);
   for (Loop& hole : surface.holes) take(hole);
+  surface.curve.reset();  // the curve is not there
   part.surfaces.push_back(std::move(surface));
   return part;
 }
@@ -164,6 +165,7 @@ class Mender {
 Vec3 place_of(const World& world, const Surface& s) { return middle_of(world, s.outer); }
 Vec3 place_of(const World& world, const Opening& o) { return middle_of(world, o.loop); }
 Vec3 place_of(const World&, const Room& r) { return r.center.value_or(Vec3::Zero()); }
+Vec3 place_of(const World&, const CurvedPart& c) { return c.curve.shape.point; }
 Vec3 place_of(const World&, const OrientedBox& b) { return b.center; }
 Vec3 place_of(const World&, const Cylinder& c) { return c.center; }
 Vec3 place_of(const World&, const ConvexHull& h) { return middle_of(h.vertices); }
@@ -192,6 +194,15 @@ void keep_valid(const World& world, std::vector<Thing> World::*things, const Bes
     else
       (kept.world.*things).push_back(thing);
   }
+}
+
+// A thing stays when the curve that it is part of does not.
+template <typename Thing>
+void forget_missing_curves(const std::vector<CurvedPart>& curves, std::vector<Thing>& things) {
+  for (Thing& thing : things)
+    if (std::none_of(curves.begin(), curves.end(),
+                     [&](const CurvedPart& c) { return c.id == thing.curve; }))
+      thing.curve.reset();
 }
 
 }  // namespace
@@ -233,10 +244,14 @@ Mended leave_out_invalid(World world) {
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (!fault_of(world)) return {std::move(world), {}, std::move(all)};
 
-  const World bare{.frame = world.frame, .vertices = world.vertices};
+  World bare{.frame = world.frame, .vertices = world.vertices};
   Mended kept{.world = bare};
   kept.world.provenance = world.provenance;
   const auto beside_nothing = [&](const auto&) { return bare; };
+  keep_valid(world, &World::curves, beside_nothing, kept);
+  forget_missing_curves(kept.world.curves, world.surfaces);
+  forget_missing_curves(kept.world.curves, world.obstacles);
+  bare.curves = kept.world.curves;
   const auto beside_its_surface = [&](const auto& thing) {
     World trial = bare;
     if (const Surface* s = find_surface(kept.world, thing.surface)) trial.surfaces = {*s};
@@ -253,9 +268,10 @@ Mended leave_out_invalid(World world) {
     std::erase_if(room.surfaces, [&](int id) {
       if (find_surface(kept.world, id)) return false;
       if (!find_surface(world, id))
-        kept.warnings.push_back(fmt::format("room {} refers to surface {}, which does not exist; "
-                                            "the reference is left out, at {} of the scan",
-                                            room.id, id, in_scan(world, place_of(world, room))));
+        kept.warnings.push_back(
+            fmt::format("room {} refers to surface {}, which does not exist; "
+                        "the reference is left out, at {} of the scan",
+                        room.id, id, in_scan(world, place_of(world, room))));
       return true;
     });
   const auto beside_all = [&](const auto&) {

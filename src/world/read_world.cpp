@@ -128,12 +128,16 @@ Color read_color(const Node& n) {
   return {channel(0), channel(1), channel(2)};
 }
 
+Support read_support(const Node& n) {
+  n.expect_keys({"points", "rms", "coverage"});
+  return {n.at("points").count(), n.at("rms").number(), n.at("coverage").number()};
+}
+
 Surface read_surface(const Node& n) {
-  n.expect_keys(
-      {"id", "kind", "source", "plane", "outer", "holes", "support", "?thickness", "?color"});
-  const Node plane = n.at("plane"), support = n.at("support");
+  n.expect_keys({"id", "kind", "source", "plane", "outer", "holes", "support", "?thickness",
+                 "?color", "?curve"});
+  const Node plane = n.at("plane");
   plane.expect_keys({"normal", "offset"});
-  support.expect_keys({"points", "rms", "coverage"});
   Surface s;
   s.id = n.at("id").integer();
   s.kind = n.at("kind").one_of({Kind::floor, Kind::ceiling, Kind::wall, Kind::other});
@@ -141,10 +145,10 @@ Surface read_surface(const Node& n) {
   s.plane = {plane.at("normal").vector(), plane.at("offset").number()};
   s.outer = n.at("outer").integers();
   s.holes = n.at("holes").list([](const Node& hole) { return hole.integers(); });
-  s.support = {support.at("points").count(), support.at("rms").number(),
-               support.at("coverage").number()};
+  s.support = read_support(n.at("support"));
   if (n.has("thickness")) s.thickness = n.at("thickness").number();
   if (n.has("color")) s.color = read_color(n.at("color"));
+  if (n.has("curve")) s.curve = n.at("curve").integer();
   return s;
 }
 
@@ -179,9 +183,11 @@ ConvexPrism read_prism(const Node& n) {
 }
 
 Obstacle read_obstacle(const Node& n) {
-  n.expect_keys({"id", "?box", "?hull", "?cylinder"});
-  if (n.json().size() != 2) n.fail("should have one of box, hull and cylinder");
+  n.expect_keys({"id", "?curve", "?box", "?hull", "?cylinder"});
+  if (n.json().size() != 2 + n.json().count("curve"))
+    n.fail("should have one of box, hull and cylinder");
   Obstacle o{.id = n.at("id").integer()};
+  if (n.has("curve")) o.curve = n.at("curve").integer();
   if (n.has("box")) o.shape = read_box(n.at("box"));
   if (n.has("hull")) o.shape = read_hull(n.at("hull"));
   if (n.has("cylinder")) o.shape = read_cylinder(n.at("cylinder"));
@@ -195,6 +201,24 @@ Collider read_collider(const Node& n) {
   if (n.has("box")) c.shape = read_box(n.at("box"));
   if (n.has("prism")) c.shape = read_prism(n.at("prism"));
   return c;
+}
+
+CurvedPart read_curve(const Node& n) {
+  n.expect_keys(
+      {"id", "type", "point", "axis", "radius", "extent", "start", "sweep", "facing", "support"});
+  const Node extent = n.at("extent");
+  if (extent.size() != 2) extent.fail("should be a list of 2 numbers");
+  const std::string facing = n.at("facing").text();
+  if (facing != "in" && facing != "out") n.at("facing").fail("is neither 'in' nor 'out'");
+  return {n.at("id").integer(),
+          {{n.at("type").one_of({CurveType::cylinder, CurveType::sphere}), n.at("point").vector(),
+            n.at("axis").vector(), n.at("radius").number()},
+           extent.item(0).number(),
+           extent.item(1).number(),
+           n.at("start").vector(),
+           n.at("sweep").number(),
+           facing == "in",
+           read_support(n.at("support"))}};
 }
 
 Room read_room(const Node& n) {
@@ -245,17 +269,19 @@ World read_document(const Node& n) {
   const Node schema = n.at("schema");
   schema.expect_keys({"name", "version"});
   if (schema.at("name").text() != "scanworld") schema.fail("the name is not 'scanworld'");
-  if (schema.at("version").integer() != kWorldSchemaVersion)
-    schema.fail(fmt::format("version {} cannot be read, only {}", schema.at("version").integer(),
-                            kWorldSchemaVersion));
+  const int version = schema.at("version").integer();
+  if (version < 1 || version > kWorldSchemaVersion)
+    schema.fail(
+        fmt::format("version {} cannot be read, only 1 to {}", version, kWorldSchemaVersion));
   n.expect_keys({"schema", "frame", "vertices", "surfaces", "openings", "obstacles", "colliders",
-                 "rooms", "doors", "provenance"});
+                 "?curves", "rooms", "doors", "provenance"});
   return {.frame = read_frame(n.at("frame")),
           .vertices = n.at("vertices").vectors(),
           .surfaces = n.at("surfaces").list(read_surface),
           .openings = n.at("openings").list(read_opening),
           .obstacles = n.at("obstacles").list(read_obstacle),
           .colliders = n.at("colliders").list(read_collider),
+          .curves = n.has("curves") ? n.at("curves").list(read_curve) : std::vector<CurvedPart>{},
           .rooms = n.at("rooms").list(read_room),
           .doors = n.at("doors").list(read_door),
           .provenance = read_provenance(n.at("provenance"))};

@@ -31,6 +31,13 @@ class Validator {
     const std::set<int> openings = check_ids("opening", world_.openings);
     const std::set<int> rooms = check_ids("room", world_.rooms);
     check_ids("obstacle", world_.obstacles);
+    const std::set<int> curves = check_ids("curve", world_.curves);
+    for (const CurvedPart& c : world_.curves) check(c);
+    const auto check_curve_id = [&](const char* what, int id, std::optional<int> curve) {
+      if (curve && !curves.count(*curve)) report("{} {}: there is no curve {}", what, id, *curve);
+    };
+    for (const Surface& s : world_.surfaces) check_curve_id("surface", s.id, s.curve);
+    for (const Obstacle& o : world_.obstacles) check_curve_id("obstacle", o.id, o.curve);
     for (const Surface& s : world_.surfaces) check(s);
     for (const Opening& o : world_.openings) check(o);
     for (const Obstacle& o : world_.obstacles) {
@@ -99,6 +106,21 @@ class Validator {
   template <typename T>  // a vector or a rotation
   static bool is_unit(const T& v) {
     return std::abs(v.norm() - 1) < kUnitTolerance;
+  }
+
+  void check(const CurvedPart& part) {
+    const std::string name = fmt::format("curve {}", part.id);
+    const Curve& c = part.curve;
+    if (!c.shape.point.allFinite()) report("{}: the point is not finite", name);
+    if (!is_unit(c.shape.axis)) return report("{}: the axis is not of length 1", name);
+    if (!is_unit(c.start) || std::abs(c.start.dot(c.shape.axis)) > kUnitTolerance)
+      report("{}: the start is not of length 1 across the axis", name);
+    if (!(c.shape.radius > 0 && std::isfinite(c.shape.radius)))
+      report("{}: the radius {} is not positive", name, c.shape.radius);
+    if (!(c.high > c.low && std::isfinite(c.high - c.low)))
+      report("{}: the extent {} to {} is none", name, c.low, c.high);
+    if (!(c.sweep > 0 && c.sweep < 2 * M_PI + kUnitTolerance))
+      report("{}: the sweep {} is not from 0 to 2 pi", name, c.sweep);
   }
 
   void check(const Room& r) {

@@ -38,6 +38,8 @@ const char* name_of(Source source) {
   return names[static_cast<int>(source)];
 }
 
+const char* name_of(CurveType type) { return type == CurveType::sphere ? "sphere" : "cylinder"; }
+
 const char* name_of(OpeningKind kind) {
   static constexpr const char* names[] = {"door", "window", "passage"};
   return names[static_cast<int>(kind)];

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "../curve.h"
 #include "../options.h"
 #include "../types.h"
 
@@ -33,6 +34,7 @@ struct Surface {
   std::optional<double> thickness;  // [m] of what is behind it, where that is known
   Support support;
   std::optional<Color> color;
+  std::optional<int> curve;  // id of what it is a facet of
   bool operator==(const Surface&) const = default;
 };
 
@@ -84,6 +86,7 @@ struct ConvexPrism {
 struct Obstacle {
   int id = 0;
   std::variant<OrientedBox, ConvexHull, Cylinder> shape;
+  std::optional<int> curve = {};  // id of what it is, where it is a column or a pipe
   bool operator==(const Obstacle&) const = default;
 };
 
@@ -92,6 +95,13 @@ struct Collider {
   int surface = 0;  // id
   std::variant<OrientedBox, ConvexPrism> shape;
   bool operator==(const Collider&) const = default;
+};
+
+// What is round: surfaces are its facets, or an obstacle is it.
+struct CurvedPart {
+  int id = 0;
+  Curve curve;
+  bool operator==(const CurvedPart&) const = default;
 };
 
 struct Room {
@@ -148,6 +158,7 @@ struct World {
   std::vector<Opening> openings;
   std::vector<Obstacle> obstacles;
   std::vector<Collider> colliders;
+  std::vector<CurvedPart> curves;
   std::vector<Room> rooms;
   std::vector<Door> doors;
   Provenance provenance;
@@ -157,6 +168,7 @@ struct World {
 const char* name_of(Kind kind);
 const char* name_of(Source source);
 const char* name_of(OpeningKind kind);
+const char* name_of(CurveType type);
 
 // Of any triangulation without further vertices.
 std::size_t triangle_count(const World& world);

@@ -35,18 +35,21 @@ Json to_json(const Frame& f) {
   return j;
 }
 
+Json to_json(const Support& s) {
+  return {{"points", s.points}, {"rms", s.rms}, {"coverage", s.coverage}};
+}
+
 Json to_json(const Surface& s) {
-  Json j = {
-      {"id", s.id},
-      {"kind", name_of(s.kind)},
-      {"source", name_of(s.source)},
-      {"plane", {{"normal", to_json(s.plane.normal)}, {"offset", s.plane.offset}}},
-      {"outer", s.outer},
-      {"holes", s.holes},
-      {"support",
-       {{"points", s.support.points}, {"rms", s.support.rms}, {"coverage", s.support.coverage}}}};
+  Json j = {{"id", s.id},
+            {"kind", name_of(s.kind)},
+            {"source", name_of(s.source)},
+            {"plane", {{"normal", to_json(s.plane.normal)}, {"offset", s.plane.offset}}},
+            {"outer", s.outer},
+            {"holes", s.holes},
+            {"support", to_json(s.support)}};
   if (s.thickness) j["thickness"] = *s.thickness;
   if (s.color) j["color"] = {s.color->r, s.color->g, s.color->b};
+  if (s.curve) j["curve"] = *s.curve;
   return j;
 }
 
@@ -79,8 +82,25 @@ Json with_shape(Json j, const Shape& shape) {
   return j;
 }
 
-Json to_json(const Obstacle& o) { return with_shape({{"id", o.id}}, o.shape); }
+Json to_json(const Obstacle& o) {
+  Json j = {{"id", o.id}};
+  if (o.curve) j["curve"] = *o.curve;
+  return with_shape(std::move(j), o.shape);
+}
 Json to_json(const Collider& c) { return with_shape({{"surface", c.surface}}, c.shape); }
+Json to_json(const CurvedPart& c) {
+  const Curve& curve = c.curve;
+  return {{"id", c.id},
+          {"type", name_of(curve.shape.type)},
+          {"point", to_json(curve.shape.point)},
+          {"axis", to_json(curve.shape.axis)},
+          {"radius", curve.shape.radius},
+          {"extent", {curve.low, curve.high}},
+          {"start", to_json(curve.start)},
+          {"sweep", curve.sweep},
+          {"facing", curve.hollow ? "in" : "out"},
+          {"support", to_json(curve.support)}};
+}
 Json to_json(const Room& r) {
   Json j = {{"id", r.id}, {"name", r.name}, {"surfaces", r.surfaces}};
   if (r.area) j["area"] = *r.area;
@@ -106,16 +126,20 @@ Json list_of(const std::vector<T>& items) {
 }
 
 Json to_json(const World& w) {
-  return {{"schema", {{"name", "scanworld"}, {"version", kWorldSchemaVersion}}},
-          {"frame", to_json(w.frame)},
-          {"vertices", to_json(w.vertices)},
-          {"surfaces", list_of(w.surfaces)},
-          {"openings", list_of(w.openings)},
-          {"obstacles", list_of(w.obstacles)},
-          {"colliders", list_of(w.colliders)},
-          {"rooms", list_of(w.rooms)},
-          {"doors", list_of(w.doors)},
-          {"provenance", to_json(w.provenance)}};
+  // Who knows version 1 alone can read what has nothing round in it.
+  const int version = w.curves.empty() ? 1 : kWorldSchemaVersion;
+  Json j = {{"schema", {{"name", "scanworld"}, {"version", version}}},
+            {"frame", to_json(w.frame)},
+            {"vertices", to_json(w.vertices)},
+            {"surfaces", list_of(w.surfaces)},
+            {"openings", list_of(w.openings)},
+            {"obstacles", list_of(w.obstacles)},
+            {"colliders", list_of(w.colliders)}};
+  if (!w.curves.empty()) j["curves"] = list_of(w.curves);
+  j.update({{"rooms", list_of(w.rooms)},
+            {"doors", list_of(w.doors)},
+            {"provenance", to_json(w.provenance)}});
+  return j;
 }
 
 // Text with one item a line where it holds objects or lists of lists, and lists of plain values on

@@ -9,8 +9,8 @@
 
 namespace scanworld {
 
-// The version of the format that is written, and the only one that is read.
-inline constexpr int kWorldSchemaVersion = 1;
+// The newest version of the format; a world without curves is written as version 1. Both are read.
+inline constexpr int kWorldSchemaVersion = 2;
 
 // The file that holds a world: world.json in a folder, else the path itself.
 std::filesystem::path world_file(const std::filesystem::path& path);

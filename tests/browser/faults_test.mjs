@@ -23,7 +23,7 @@ const changed = (change) => {
 const WORLDS = [
   ['a vertex that does not exist', changed((w) => (w.surfaces[3].outer[2] = 999)), 'surfaces[3].outer[2] is 999: there are 296 vertices'],
   ['no schema', changed((w) => delete w.schema), "this is not a world: it has no key 'schema'"],
-  ['another version', changed((w) => (w.schema.version = 7)), 'version 7: this page shows version 1'],
+  ['another version', changed((w) => (w.schema.version = 7)), 'version 7: this page shows version 2'],
   ['another schema', { schema: { name: 'scanworld-report', version: 1 } }, 'this is not a world: its schema is "scanworld-report", not "scanworld"'],
   ['a list', [1, 2, 3], 'this is not a world: it is not a JSON object'],
   ['a vertex of two numbers', changed((w) => (w.vertices[5] = [1, 2])), 'vertices[5] is [1,2]: it should be 3 numbers'],

@@ -95,6 +95,23 @@ World full_world() {
       {.surface = 0,
        .shape = OrientedBox{{2, 1.5, -0.05}, {4, 3, 0.1}, Eigen::Quaterniond::Identity()}},
       {.surface = 1, .shape = ConvexPrism{{{0, 0, 0}, {4, 0, 0}, {4, 0, 1}}, {0, -0.1, 0}}}};
+  world.curves = {{4,
+                   {{CurveType::cylinder, {2, 2, 1}, Vec3::UnitZ(), 0.3},
+                    -1,
+                    1,
+                    Vec3::UnitX(),
+                    6,
+                    false,
+                    {1234, 0.1, 1.0 / 3}}},
+                  {5,
+                   {{CurveType::sphere, {1, 2, 0.1}, Vec3::UnitY(), 7},
+                    0,
+                    6.5,
+                    Vec3::UnitX(),
+                    0.3,
+                    true,
+                    {55, 0.02, 1}}}};
+  world.obstacles[2].curve = 4, world.surfaces[1].curve = 5;
   world.rooms = {{0, "hall", {0, 1}}, {1, "yard", {}}};
   world.doors = {{7, {0, 1}}};
   world.provenance = {

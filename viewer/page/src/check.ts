@@ -93,13 +93,13 @@ export class Place {
 }
 
 /** Checks which schema a document says that it follows. */
-export function check_schema(root: Place, name: string, what: string): void {
+export function check_schema(root: Place, name: string, what: string, newest = 1): void {
   if (typeof root.value !== 'object' || root.value === null || Array.isArray(root.value)) throw new Fault(`${root.file}: this is not ${what}: it is not a JSON object`);
   const schema = root.at('schema');
   if (!schema.present) throw new Fault(`${root.file}: this is not ${what}: it has no key 'schema'`);
   if (schema.at('name').value !== name) throw new Fault(`${root.file}: this is not ${what}: its schema is ${shown(schema.at('name').value)}, not "${name}"`);
   const version = schema.at('version').value;
-  if (version !== 1) throw new Fault(`${root.file}: version ${shown(version)}: this page shows version 1`);
+  if (version !== 1 && version !== newest) throw new Fault(`${root.file}: version ${shown(version)}: this page shows version ${newest}`);
 }
 
 export function parse(text: string, file: string): Place {

@@ -157,7 +157,7 @@ function read_rooms(root: Place, surfaces: Ids): Room[] {
 
 /** Reads a world, or throws a Fault that names the place and the value. */
 export function read_world(root: Place): World {
-  check_schema(root, 'scanworld', 'a world');
+  check_schema(root, 'scanworld', 'a world', 2);
   const vertices = root.at('vertices').list().map((v) => v.vec3());
   const surfaces = root.at('surfaces').list().map((s) => read_surface(s, vertices.length));
   const surface_ids = new Ids(surfaces, 'surfaces', root);
