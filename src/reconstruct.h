@@ -45,7 +45,7 @@ struct ReconstructResult {
                                      // or on a curve
   std::vector<std::int32_t>
       curve_labels;  // for each point the id of its curve, -1 = none; empty where there are none
-  std::optional<Replay> replay;      // where it was asked for
+  std::optional<Replay> replay;  // where it was asked for
 };
 
 // Makes a world of a scan. The same points and options give the same world, whatever the number of

@@ -18,10 +18,10 @@ PointCloud wavy_floor(double height, double noise, double step = 0) {
   const double k = 2 * M_PI / 3;
   for (double x = 0; x < 6; x += 0.025)
     for (double y = 0; y < 6; y += 0.025)
-      cloud.points.emplace_back(
-          Vec3(x, y, 2 * height * std::sin(k * x) * std::sin(k * y) + (x < 3 ? 0 : step) +
-                         noise * random.gauss())
-              .cast<float>());
+      cloud.points.emplace_back(Vec3(x, y,
+                                     2 * height * std::sin(k * x) * std::sin(k * y) +
+                                         (x < 3 ? 0 : step) + noise * random.gauss())
+                                    .cast<float>());
   return cloud;
 }
 

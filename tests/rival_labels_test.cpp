@@ -61,7 +61,8 @@ TEST_CASE("no point is farther from its plane than the options allow, and labels
         const double off =
             std::abs(plane.fit.plane.signed_distance(s.cloud.points[i].cast<double>()));
         CHECK(off <= max_own * plane.noise * (1 + 1e-9));
-        const double expected = std::hypot(s.scale.noise, std::sqrt(square_bend(plane.fit, s.scale)));
+        const double expected =
+            std::hypot(s.scale.noise, std::sqrt(square_bend(plane.fit, s.scale)));
         CHECK(off <= options.max_distance * expected * (1 + 1e-9));
       }
       for (int n : counts) CHECK(n >= options.min_points);

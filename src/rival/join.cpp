@@ -16,8 +16,8 @@ double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, doubl
                    Meeting meeting) {
   const MomentFit joint = fit(a.moments + b.moments);
   const double extent = extent_of(joint);
-  const double bend = meeting == Meeting::smooth ? scale.flatness.limit_at(extent)
-                                                 : scale.flatness.bend_at(extent);
+  const double bend =
+      meeting == Meeting::smooth ? scale.flatness.limit_at(extent) : scale.flatness.bend_at(extent);
   return std::max(a.moments.mean_square(joint.plane), b.moments.mean_square(joint.plane)) /
          square_limit(a, b, bend, scale, max_rms);
 }

@@ -94,7 +94,8 @@ Clustering merge_clusters(const Grid& grid, const Neighbors& neighbors, const Sc
     const auto a = static_cast<std::size_t>(bid.a), b = static_cast<std::size_t>(bid.b);
     if (joiner.find(a) == joiner.find(b)) continue;
     // A plane in common must serve what the two have become since.
-    if (bid.layer || plane_price(joiner.whole(a), joiner.whole(b), scale, Meeting::smooth, options) < 1)
+    if (bid.layer ||
+        plane_price(joiner.whole(a), joiner.whole(b), scale, Meeting::smooth, options) < 1)
       joiner.join(a, b);
   }
   return joiner.finish(grid);

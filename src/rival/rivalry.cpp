@@ -30,8 +30,8 @@ std::int32_t best_label(std::size_t i, std::span<const std::uint32_t> around, co
   for (const auto& e : entries) {
     const Plane& plane = c.plane(e.label);
     const double d = plane.signed_distance(s.position());
-    const double ms = (d * d + s.variance(plane.normal)) /
-                      (noise + bends[static_cast<std::size_t>(e.label)]);
+    const double ms =
+        (d * d + s.variance(plane.normal)) / (noise + bends[static_cast<std::size_t>(e.label)]);
     double price = n * std::min(ms, 16.0);
     if (local[i].planar() && std::abs(local[i].normal.dot(plane.normal.cast<float>())) < cos_angle)
       price += n * options.wrong_normal;

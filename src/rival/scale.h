@@ -17,9 +17,10 @@ struct ScaleOptions {
   double min_voxel = 0.02;         // [m] voxels are not smaller where their size is derived
   double voxel_per_spacing = 1.5;  // a voxel's edge in spacings
   double voxel_per_noise = 3;      // and at least so many times the noise
-  double depth_step = 0;  // [1/m] a depth camera's noise is at least this times range squared
+  double depth_step = 0;   // [1/m] a depth camera's noise is at least this times range squared
   double max_bend = 0.02;  // [m] surfaces are not taken to bend by more; 0 = all are flat
-  double max_sag = 0.002;  // a surface may bend by this share of its extent, however flat others are
+  double max_sag =
+      0.002;  // a surface may bend by this share of its extent, however flat others are
 };
 
 // How far the scan's surfaces are off planes by themselves, apart from noise: floors sag, and
@@ -29,7 +30,7 @@ struct Flatness {
   struct Sample {
     double extent, bend;  // [m]
   };
-  std::vector<Sample> samples;  // of rising extent and bend; none for a scan that is flat
+  std::vector<Sample> samples;       // of rising extent and bend; none for a scan that is flat
   double max_bend = 0, max_sag = 0;  // [m], and a share of the extent: what a single surface may be
 
   // Beyond the largest extent that was seen it grows in proportion, at most to the double.

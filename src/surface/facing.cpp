@@ -128,9 +128,8 @@ struct Turned {
 };
 
 // To the side that normals tell, or else rays, the ground and the sky.
-Turned face_by_rays(std::vector<Patch> patches, const PatchRays& rays,
-                                const PointCloud& cloud, const Members& members, const Vec3& up,
-                                const FacingOptions& options) {
+Turned face_by_rays(std::vector<Patch> patches, const PatchRays& rays, const PointCloud& cloud,
+                    const Members& members, const Vec3& up, const FacingOptions& options) {
   const Judge judge(rays, cloud, up, options);
   std::vector<Outlook> outlooks(patches.size());
   parallel_for(patches.size(), [&](std::size_t k) {
