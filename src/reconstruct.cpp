@@ -299,12 +299,15 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     set_aside(found, grid, neighbors, local, clusters);
     return found;
   });
-  scale.flatness = log.run("Measuring flatness", "clusters -> lengths", clusters, [&] {
-    return find_flatness(grid, neighbors, scale, std::move(clusters), options);
-  });
+  scale.flatness = log.run("Measuring flatness", "clusters -> lengths", clusters,
+                           [&] { return find_flatness(grid, neighbors, scale, clusters, options); });
   result.report.flatness = scale.flatness.bend_at(1);
-  clusters = log.run("Growing on what bends", "sites -> clusters", local,
-                     [&] { return grow(watch(recorder, "Growth")); });
+  // What is flat, and without curves, grows as it did; but a replay shows how.
+  const bool is_as_before = scale.flatness.samples.empty() && curves.curves.empty();
+  clusters = log.run("Growing on what bends", "sites -> clusters", local, [&] {
+    return is_as_before && !recorder.is_on() ? std::move(clusters)
+                                             : grow(watch(recorder, "Growth"));
+  });
   clusters = log.run("Rivalry", "clusters -> clusters", clusters, [&] {
     return settle(grid, neighbors, scale, local, std::move(clusters), options,
                   watch(recorder, "Rivalry"));
