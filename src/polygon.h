@@ -48,11 +48,16 @@ inline bool is_inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p
   return inside;
 }
 
-// How far a point is from a segment.
-inline double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
+// The place on a segment that is nearest to a point.
+inline Vec2 nearest_on(const Vec2& p, const Vec2& a, const Vec2& b) {
   const double length2 = (b - a).squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
-  return (a + t * (b - a) - p).norm();
+  return a + t * (b - a);
+}
+
+// How far a point is from a segment.
+inline double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return (nearest_on(p, a, b) - p).norm();
 }
 
 // Whether two segments cross, each the other's inside.

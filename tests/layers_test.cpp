@@ -22,7 +22,7 @@ std::string room_of(const fs::path& file) {
       "types",     "error",    "parallel", "progress",      "options",        "files",
       "report",    "version",  "mix",      "disjoint_sets", "point_sums",     "polygon",
       "mesh_rays", "segments", "circle",   "cell_walk",     "occupancy_grid", "replay",
-      "curve",     "text",     "turn",     "known_files",   "output_folder"};
+      "curve",     "quantile", "text",     "turn",          "known_files",    "output_folder"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;

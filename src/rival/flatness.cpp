@@ -7,20 +7,15 @@
 #include <map>
 
 #include "../parallel.h"
+#include "../quantile.h"
 
 namespace scanworld::rival {
 
 namespace {
 
-// A square of a cluster's plane, and how far its points are off a plane of their own.
-struct Window {
-  double square = 0;  // [m2]
-  double area = 0;    // [m2] that its points show
-
-  bool operator<(const Window& o) const {
-    return square != o.square ? square < o.square : area < o.area;
-  }
-};
+// How far the points in a square of a cluster's plane are off a plane of their own, squared, and
+// the area that they show [m2].
+using Window = std::pair<double, double>;
 
 // The squares of this size that a cluster fills well enough.
 std::vector<Window> cut_windows(const Grid& grid, const std::vector<std::uint32_t>& sites,
@@ -42,16 +37,6 @@ std::vector<Window> cut_windows(const Grid& grid, const std::vector<std::uint32_
   return windows;
 }
 
-// Half of the area is less far off its planes than this [m2].
-double median_square(std::vector<Window> windows) {
-  std::sort(windows.begin(), windows.end());
-  double all = 0, below = 0;
-  for (const Window& w : windows) all += w.area;
-  for (const Window& w : windows)
-    if ((below += w.area) >= all / 2) return w.square;
-  return 0;
-}
-
 }  // namespace
 
 Flatness measure_flatness(const Grid& grid, const Clustering& c, const Flatness& limits,
@@ -70,7 +55,7 @@ Flatness measure_flatness(const Grid& grid, const Clustering& c, const Flatness&
     std::vector<Window> windows;
     for (const auto& list : of_cluster) windows.insert(windows.end(), list.begin(), list.end());
     if (windows.size() < options.min_windows) continue;
-    const double square = median_square(std::move(windows));
+    const double square = weighted_median(std::move(windows));
     if (noise == 0) noise = square;
     const double bend = square > options.certain * noise ? std::sqrt(square - noise) : 0;
     const double before = flatness.samples.empty() ? 0 : flatness.samples.back().bend;

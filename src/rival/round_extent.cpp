@@ -5,19 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../quantile.h"
+
 namespace scanworld::rival {
 
 namespace {
 
 constexpr double kLeastGap = 0.35;  // [rad] of what goes all around, at most
 constexpr double kCell = 1.5;       // [voxel] in which there should be a site
-
-double quantile_of(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // The widest run of empty columns of a ring, and the column after it.
 std::pair<int, int> widest_gap(const std::vector<char>& column) {
@@ -44,7 +39,7 @@ RoundExtent extent_of(const RoundShape& shape, const Grid& grid,
     angle.push_back(std::atan2(way.dot(left), way.dot(zero)) + M_PI);
   }
   RoundExtent e;
-  e.low = quantile_of(std::move(low), 0.01), e.high = quantile_of(std::move(high), 0.99);
+  e.low = quantile(std::move(low), 0.01), e.high = quantile(std::move(high), 0.99);
   const double cell = kCell * grid.voxel;
   const int bins = std::clamp(static_cast<int>(2 * M_PI * shape.radius / cell), 8, 256);
   const int rows = std::max(1, static_cast<int>((e.high - e.low) / cell));
@@ -74,7 +69,7 @@ double half_sweep(const RoundShape& shape, const RoundExtent& extent, const Grid
   std::vector<double> cosines;
   for (std::uint32_t i : sites)
     cosines.push_back(middle.dot(shape.normal_at(grid.sites[i].position())));
-  return std::acos(std::clamp(quantile_of(std::move(cosines), 0.05), -1.0, 1.0));
+  return std::acos(std::clamp(quantile(std::move(cosines), 0.05), -1.0, 1.0));
 }
 
 }  // namespace scanworld::rival

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "../circle.h"
+#include "../quantile.h"
 
 namespace scanworld::rival {
 
@@ -100,9 +101,7 @@ void take_step(RoundShape& shape, const PlaneFrame& frame, const Parameters& by)
 double gate_of(const std::vector<double>& off) {
   std::vector<double> size;
   for (double d : off) size.push_back(std::abs(d));
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return std::max(3 * *middle, 1e-6);
+  return std::max(3 * median(std::move(size)), 1e-6);
 }
 
 }  // namespace

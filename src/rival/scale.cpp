@@ -11,6 +11,7 @@
 
 #include "../mix.h"
 #include "../parallel.h"
+#include "../quantile.h"
 #include "moments.h"
 
 namespace scanworld::rival {
@@ -68,13 +69,6 @@ struct CellFit {
   double rms = 0, spacing = 0;
   Vec3 centroid = Vec3::Zero();
 };
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // One plane through most of the points, by refitting to those within 2.5 standard deviations
 // (taken from the median absolute distance); no rms where they do not lie in one.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "../polygon.h"
+#include "../quantile.h"
 #include "raster_outlines.h"
 
 namespace scanworld::surface {
@@ -234,14 +235,13 @@ void refine(const PointCloud& cloud, std::span<const std::uint32_t> members, con
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     std::vector<double>& farthest = bins[k].farthest;
-    const auto middle = farthest.begin() + static_cast<std::ptrdiff_t>(farthest.size() / 2);
-    std::nth_element(farthest.begin(), middle, farthest.end());
-    if (*middle < -reach) continue;
+    const double middle = median(farthest);
+    if (middle < -reach) continue;
     EdgePiece& p = pieces[k];
     const double length = (p.to - p.from).norm();
-    const double density = static_cast<double>(bins[k].points) / (length * (*middle + reach));
+    const double density = static_cast<double>(bins[k].points) / (length * (middle + reach));
     const double bin = length / static_cast<double>(farthest.size());
-    const double shift = std::min(*middle + std::log(2.0) / (density * bin), reach);
+    const double shift = std::min(middle + std::log(2.0) / (density * bin), reach);
     p.offset += shift, p.from += shift * p.outward, p.to += shift * p.outward;
   }
 }

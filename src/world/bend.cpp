@@ -8,6 +8,7 @@
 #include <map>
 
 #include "../parallel.h"
+#include "../quantile.h"
 #include "surface_rings.h"
 
 namespace scanworld {
@@ -44,12 +45,6 @@ std::vector<Square> means_of(const PlaneFrame& frame, const Plane& plane,
   return means;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // How far the means are off a plane through most of them [m2], less what chance makes of it.
 double bend_square(const std::vector<Square>& means) {
   std::vector<double> off(means.size()), chance;
@@ -66,9 +61,9 @@ double bend_square(const std::vector<Square>& means) {
     const Vec3 plane = normal.completeOrthogonalDecomposition().solve(right);
     for (std::size_t i = 0; i < means.size(); ++i)
       off[i] = std::abs(means[i].off - plane.dot(Vec3(means[i].at.x(), means[i].at.y(), 1)));
-    deviation = kPerMedian * median_of(off);
+    deviation = kPerMedian * median(off);
   }
-  return std::max(0.0, deviation * deviation - median_of(chance));
+  return std::max(0.0, deviation * deviation - median(chance));
 }
 
 }  // namespace
@@ -80,23 +75,14 @@ double measure_bend(const World& world, const std::vector<Vec3>& points,
   for (std::size_t i = 0; i < points.size(); ++i)
     if (nearest[i] && nearest[i]->is_surface && nearest[i]->distance <= options.reach)
       of_surface[nearest[i]->index].push_back(points[i]);
-  struct Bend {
-    double square = 0, area = 0;  // [m2]
-  };
-  std::vector<Bend> bends(of_surface.size());
+  std::vector<std::pair<double, double>> bends(of_surface.size());  // squared, and area [m2]
   parallel_for(bends.size(), [&](std::size_t s) {
     const Surface& surface = world.surfaces[s];
     const std::vector<Square> means =
         means_of(rings_frame(world, surface), surface.plane, of_surface[s], options);
     if (means.size() >= options.min_squares) bends[s] = {bend_square(means), area(world, surface)};
   });
-  std::sort(bends.begin(), bends.end(),
-            [](const Bend& a, const Bend& b) { return a.square < b.square; });
-  double all = 0, below = 0;
-  for (const Bend& b : bends) all += b.area;
-  for (const Bend& b : bends)
-    if (b.area > 0 && (below += b.area) >= all / 2) return std::sqrt(b.square);
-  return 0;
+  return std::sqrt(weighted_median(std::move(bends)));
 }
 
 }  // namespace scanworld

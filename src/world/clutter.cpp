@@ -9,6 +9,7 @@
 #include "../disjoint_sets.h"
 #include "../parallel.h"
 #include "../polygon.h"
+#include "../quantile.h"
 #include "surface_rings.h"
 
 namespace scanworld {
@@ -202,9 +203,8 @@ void drop_curtains(std::vector<Entry>& entries, std::vector<ClutterCell>& cells,
   for (const auto& thing : group(connect(cells))) {
     std::vector<double> sorted;
     for (std::size_t i : thing) sorted.push_back(count[i]);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    for (std::size_t i : thing) keep[i] = count[i] >= share * *middle;
+    const double middle = median(std::move(sorted));
+    for (std::size_t i : thing) keep[i] = count[i] >= share * middle;
   }
   keep_cells(entries, cells, [&](std::size_t i) { return keep[i] != 0; });
 }

@@ -10,6 +10,7 @@
 
 #include "../error.h"
 #include "../parallel.h"
+#include "../quantile.h"
 #include "bend.h"
 #include "cloud_in_world.h"
 #include "fidelity_samples.h"
@@ -33,12 +34,6 @@ double densest(std::vector<double> values, double width) {
     if (end - i > most) best = i, most = end - i;
   }
   return values[best + most / 2];
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Of distances with what each of them stands for: the smallest that so much of the whole is within.

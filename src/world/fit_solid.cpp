@@ -10,6 +10,7 @@
 #include "../circle.h"
 #include "../error.h"
 #include "../polygon.h"
+#include "../quantile.h"
 #include "convex_parts.h"
 #include "solids.h"
 #include "support_points.h"
@@ -36,13 +37,6 @@ struct Upright {
   }
   Vec3 to_space(const Vec2& at, double z) const { return frame.to_space(at) + z * up; }
 };
-
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // Where the faces are at both ends of some values: at the median of those that the noise leaves
 // around the outermost, but for a few strays.

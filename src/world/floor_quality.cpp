@@ -30,10 +30,7 @@ PlaceBeside place_beside(const Face& face, const Vec3& p) {
   double least = std::numeric_limits<double>::max();
   for (const auto& ring : face.rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 &a = ring[i], way = ring[(i + 1) % ring.size()] - a;
-      const double length2 = way.squaredNorm();
-      const double t = length2 > 0 ? std::clamp((q - a).dot(way) / length2, 0.0, 1.0) : 0;
-      const Vec2 at = a + t * way;
+      const Vec2 at = nearest_on(q, ring[i], ring[(i + 1) % ring.size()]);
       if (const double distance = (at - q).norm(); distance < least) least = distance, best = at;
     }
   if (is_inside(face.rings, q)) return {face.frame.to_space(q), 0, least};
