@@ -7,6 +7,7 @@
 
 #include "../circle.h"
 #include "../disjoint_sets.h"
+#include "round_fit.h"
 
 namespace scanworld::rival {
 
@@ -14,16 +15,11 @@ namespace {
 
 Vec2 plan_of(const Vec3& p) { return p.head<2>(); }
 
-// How far a site's points are off a cylinder, as the mean of the squares [m2]. Along the curve they
-// spread to both sides of their mean, which therefore lies inside.
+// How far a site's points are off an upright cylinder, as the mean of the squares [m2].
 double mean_square(const Site& site, const Circle& circle) {
-  const Vec2 way = plan_of(site.position()) - circle.center;
-  const double distance = std::max(way.norm(), 1e-6);
-  const Vec2 out = way / distance;
-  const double along = site.variance(Vec3(-out.y(), out.x(), 0)),
-               across = site.variance(Vec3(out.x(), out.y(), 0));
-  const double off = distance + along / (2 * distance) - circle.radius;
-  return across + off * off;
+  const RoundShape cylinder{.point = {circle.center.x(), circle.center.y(), 0},
+                            .radius = circle.radius};
+  return off_surface(site, cylinder).square;
 }
 
 double mean_square(const Site& site, const Plane& plane) {

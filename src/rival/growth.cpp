@@ -24,8 +24,6 @@ class Grower {
         scale_(scale),
         local_(local),
         options_(options),
-        many_(options.max_rms * options.max_rms),
-        one_(options.max_distance * options.max_distance - many_),
         cos_angle_(static_cast<float>(std::cos(options.max_angle))),
         all_awake_(c.awake.empty()),
         c_(std::move(c)) {
@@ -103,8 +101,10 @@ class Grower {
     const Plane& plane = cluster_.fit.plane;
     const double d = plane.signed_distance(s.position());
     const double variance = scale_.variance_at(s.position()) + bend_;
-    if (d * d > (many_ + one_) * variance) return false;
-    if (d * d + s.variance(plane.normal) > (many_ + one_ / s.points) * variance) return false;
+    const auto limit = [&](double points) {
+      return square_off(options_.max_rms, options_.max_distance, points) * variance;
+    };
+    if (d * d > limit(1) || d * d + s.variance(plane.normal) > limit(s.points)) return false;
     return !local_[j].planar() || std::abs(local_[j].normal.dot(normal_)) >= cos_angle_;
   }
 
@@ -113,7 +113,6 @@ class Grower {
   const Scale& scale_;
   const std::vector<LocalPlane>& local_;
   const GrowthOptions& options_;
-  const double many_, one_;  // squares, in noise, for a site with many points, and more for one
   const float cos_angle_;
   const bool all_awake_;
   Clustering c_;

@@ -37,9 +37,8 @@ inline double variance_of(const Site& site, const RoundShape& shape, const Scale
 // The most that a site's points may be off a curve, squared [m2].
 inline double limit_of(const Site& site, const RoundShape& shape, const Scale& scale,
                        const CurveOptions& options) {
-  const double many = options.max_rms * options.max_rms,
-               one = options.max_distance * options.max_distance;
-  return (many + (one - many) / site.points) * variance_of(site, shape, scale, options);
+  return square_off(options.max_rms, options.max_distance, site.points) *
+         variance_of(site, shape, scale, options);
 }
 
 bool has_good_radius(const RoundShape& shape, const CurveOptions& options);

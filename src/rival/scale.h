@@ -57,6 +57,13 @@ struct Scale {
   double variance_at(const Vec3& p) const { return noise_at(p) * noise_at(p); }
 };
 
+// The most that points may be off their surface, squared and in squared noise: one may be an
+// outlier of its noise, the mean of many may not.
+inline double square_off(double max_rms, double max_distance, double points) {
+  const double many = max_rms * max_rms, one = max_distance * max_distance;
+  return many + (one - many) / points;
+}
+
 inline std::size_t count_of(const Scale&) { return 3; }
 inline std::size_t count_of(const Flatness& flatness) { return flatness.samples.size(); }
 
