@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "cut_curves.h"
 #include "error.h"
+#include "quantile.h"
 #include "record.h"
 #include "rival/curve_points.h"
 #include "surface/describe.h"
@@ -21,11 +23,18 @@
 #include "world/mend.h"
 #include "world/obstacles.h"
 #include "world/openings.h"
-#include "world/round_solids.h"
 
 namespace scanworld {
 
 namespace {
+
+// Labels that are called otherwise; -1 stays.
+std::vector<std::int32_t> labels_by(const std::vector<std::int32_t>& new_label,
+                                    std::vector<std::int32_t> labels) {
+  for (std::int32_t& l : labels)
+    if (l >= 0) l = new_label[static_cast<std::size_t>(l)];
+  return labels;
+}
 
 // Found surfaces with an area; labels follow them.
 void drop_degenerate(std::vector<FoundSurface>& surfaces, ReconstructResult& result) {
@@ -40,16 +49,13 @@ void drop_degenerate(std::vector<FoundSurface>& surfaces, ReconstructResult& res
   }
   surfaces = std::move(kept);
   result.report.plane_noise = std::move(noise);
-  for (std::int32_t& label : result.labels)
-    if (label >= 0) label = new_id[static_cast<std::size_t>(label)];
+  result.labels = labels_by(new_id, std::move(result.labels));
 }
 
 double median_rms(const std::vector<FoundSurface>& surfaces) {
   std::vector<double> rms;
   for (const FoundSurface& s : surfaces) rms.push_back(s.support.rms);
-  const auto middle = rms.begin() + static_cast<std::ptrdiff_t>(rms.size() / 2);
-  std::nth_element(rms.begin(), middle, rms.end());
-  return *middle;
+  return median(std::move(rms));
 }
 
 // A scan with more than this is hardly one in metres.
@@ -109,16 +115,7 @@ void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
     noise.push_back(plane < planes ? result.report.plane_noise[plane] : 0);
   }
   result.report.plane_noise = std::move(noise);
-  for (std::int32_t& label : result.labels)
-    if (label >= 0) label = first[static_cast<std::size_t>(label)];
-}
-
-// Labels that are called otherwise; -1 stays.
-std::vector<std::int32_t> labels_by(const std::vector<std::int32_t>& new_label,
-                                    std::vector<std::int32_t> labels) {
-  for (std::int32_t& l : labels)
-    if (l >= 0) l = new_label[static_cast<std::size_t>(l)];
-  return labels;
+  result.labels = labels_by(first, std::move(result.labels));
 }
 
 // The voxels' points with their planes.
@@ -135,42 +132,6 @@ std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::
   for (std::size_t k = 0; k < planes.size(); ++k)
     facings.push_back({planes[k].normal, static_cast<double>(members.of(k).size())});
   return facings;
-}
-
-// The curves of a scan and the points on them, as planes: facets of those that bound the place.
-struct CutCurves {
-  std::vector<Curve> curves;
-  std::vector<std::optional<surface::Facets>> facets;  // none of solids
-  std::vector<std::size_t> first;            // for each curve the plane of its first facet
-  std::vector<std::int32_t> curve_of_plane;  // -1 of what is flat
-
-  // The plane of a point on a curve; -1 on a solid.
-  std::int32_t plane_of(std::int32_t curve, const Vec3& p) const {
-    const auto& cut = facets[static_cast<std::size_t>(curve)];
-    return cut ? static_cast<std::int32_t>(first[static_cast<std::size_t>(curve)] + cut->of(p))
-               : -1;
-  }
-};
-
-// Adds the facets to the planes, and labels the points on them.
-CutCurves cut_curves(const PointCloud& cloud, const std::vector<Curve>& curves,
-                     const surface::FacetOptions& options, std::vector<Plane>& planes,
-                     ReconstructResult& result) {
-  CutCurves parts{.curves = curves, .curve_of_plane = std::vector<std::int32_t>(planes.size(), -1)};
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    parts.first.push_back(planes.size());
-    parts.facets.emplace_back();
-    if (is_solid(curves[k])) continue;
-    const auto& facets = parts.facets.back().emplace(curves[k], options).planes();
-    planes.insert(planes.end(), facets.begin(), facets.end());
-    parts.curve_of_plane.resize(planes.size(), static_cast<std::int32_t>(k));
-    result.report.plane_noise.resize(planes.size(),
-                                     std::hypot(curves[k].support.rms, options.sagitta / 3));
-  }
-  for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
-    if (const std::int32_t c = result.curve_labels[i]; c >= 0)
-      result.labels[i] = parts.plane_of(c, cloud.points[i].cast<double>());
-  return parts;
 }
 
 // What a method finds.
@@ -299,8 +260,9 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     set_aside(found, grid, neighbors, local, clusters);
     return found;
   });
-  scale.flatness = log.run("Measuring flatness", "clusters -> lengths", clusters,
-                           [&] { return find_flatness(grid, neighbors, scale, clusters, options); });
+  scale.flatness = log.run("Measuring flatness", "clusters -> lengths", clusters, [&] {
+    return find_flatness(grid, neighbors, scale, clusters, options);
+  });
   result.report.flatness = scale.flatness.bend_at(1);
   // What is flat, and without curves, grows as it did; but a replay shows how.
   const bool is_as_before = scale.flatness.samples.empty() && curves.curves.empty();
@@ -347,26 +309,6 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   };
   return make_surfaces(cloud, planes, round, voxel, find_around, all.surface, log, result,
                        recorder);
-}
-
-// Adds the curves that are facets of surfaces or solids on their own. Which side is free is what
-// their facets say.
-void add_curves(const std::vector<Curve>& curves, World& world) {
-  std::vector<double> inwards(curves.size());
-  for (const Surface& s : world.surfaces)
-    if (s.curve) {
-      const auto k = static_cast<std::size_t>(*s.curve);
-      const Vec3 out = curves[k].shape.normal_at(centroid(world, s));
-      inwards[k] += out.dot(s.plane.normal) < 0 ? area(world, s) : -area(world, s);
-    }
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    CurvedPart part{static_cast<int>(k), curves[k]};
-    if (is_solid(curves[k]))
-      world.obstacles.push_back({.shape = solid_of(curves[k], world.frame.up), .curve = part.id});
-    else
-      part.curve.hollow = inwards[k] > 0;
-    world.curves.push_back(std::move(part));
-  }
 }
 
 // Takes over a mended world: labels and what is told of each surface follow.
@@ -459,48 +401,6 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   result.world.provenance.options["method"] = name_of(options.method);
   result.world.provenance.program = std::string("scanworld ") + version();
   return result;
-}
-
-Method method_named(const std::string& name) {
-  for (Method method : {Method::rival, Method::thesis})
-    if (name == name_of(method)) return method;
-  throw Error(Cause::usage, fmt::format("there is no method '{}'; there are rival, thesis", name));
-}
-
-const char* name_of(Method method) { return method == Method::thesis ? "thesis" : "rival"; }
-
-OptionList list_options(ReconstructOptions& options) {
-  OptionList list = rival::list_options(options.rival);
-  for (const OptionList& more :
-       {surface::list_options(options.surface), thesis::list_options(options.thesis),
-        list_options(options.thickness), list_options(options.colliders),
-        list_options(options.obstacles), list_options(options.rooms), list_options(options.frame)})
-    list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
-
-const std::vector<std::string>& preset_names() {
-  static const std::vector<std::string> names = {"indoor", "outdoor", "rgbd", "fast"};
-  return names;
-}
-
-std::string preset_for(const PointCloud& cloud) { return cloud.camera_frame ? "rgbd" : "indoor"; }
-
-void apply_preset(ReconstructOptions& options, const std::string& preset) {
-  thesis::FilterOptions& filter = options.thesis.filter;
-  rival::RivalOptions& rival = options.rival;
-  if (preset == "indoor") return;
-  if (preset == "outdoor")
-    filter.min_size = 0.2, rival.scale.min_voxel = 0.1, rival.evidence.min_area = 0.5;
-  else if (preset == "rgbd")
-    // A Kinect's step is 7 cm at 5 m, its noise about half of that.
-    filter.depth_step = 0.003, rival.scale.depth_step = 0.0015, rival.scale.min_voxel = 0.02;
-  else if (preset == "fast")
-    filter.min_size = 0.1, filter.points_per_cube = 16, rival.scale.voxel_per_spacing = 2,
-    rival.scale.min_voxel = 0.06;
-  else
-    throw Error(Cause::usage, fmt::format("there is no preset '{}'; there are {}", preset,
-                                          fmt::join(preset_names(), ", ")));
 }
 
 }  // namespace scanworld
