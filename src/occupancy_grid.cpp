@@ -6,8 +6,8 @@
 
 #include <bit>
 #include <limits>
-#include <unordered_map>
 
+#include "cell_sight.h"
 #include "cell_walk.h"
 #include "error.h"
 #include "parallel.h"
@@ -18,57 +18,16 @@ namespace {
 
 using CellIndex = Eigen::Vector3i;
 constexpr std::size_t kBlockCells = std::tuple_size_v<decltype(OccupancyGrid::Block::cells)>;
-constexpr int kBlockBits = 9;  // of a cell's Morton code, within its block
+constexpr int kBlockBits = CellSet::kBlockBits;
 static_assert(kBlockCells == 1 << kBlockBits);
 
-constexpr std::size_t kNearestViewpoints = 4;  // that may have seen a cell
 constexpr std::size_t kRaysPerPart = 4096;
-
-constexpr auto kNobody = std::numeric_limits<std::size_t>::max();
 
 // A cell with points.
 struct SeenCell {
   std::uint64_t code;  // Morton
   std::size_t points;
   std::size_t viewer = kNobody;  // index of the viewpoint that saw it
-};
-
-// Some cells, as bits of their blocks.
-class CellSet {
- public:
-  struct Block {
-    std::uint64_t key;
-    std::array<std::uint64_t, kBlockCells / 64> bits{};
-  };
-
-  void insert(std::uint64_t code) {
-    Block& block = block_of(code >> kBlockBits);
-    const std::uint64_t cell = code & (kBlockCells - 1);
-    block.bits[cell / 64] |= std::uint64_t{1} << cell % 64;
-  }
-  const Block* find(std::uint64_t key) const {
-    const auto found = index_.find(key);
-    return found == index_.end() ? nullptr : &blocks_[found->second];
-  }
-  static bool contains(const Block& block, std::uint64_t code) {
-    const std::uint64_t cell = code & (kBlockCells - 1);
-    return (block.bits[cell / 64] >> cell % 64 & 1) != 0;
-  }
-  std::vector<Block> take_blocks() { return std::move(blocks_); }
-
- private:
-  Block& block_of(std::uint64_t key) {
-    if (blocks_.empty() || blocks_[last_].key != key) {
-      const auto [found, is_new] = index_.try_emplace(key, blocks_.size());
-      if (is_new) blocks_.push_back({.key = key});
-      last_ = found->second;
-    }
-    return blocks_[last_];
-  }
-
-  std::vector<Block> blocks_;
-  std::unordered_map<std::uint64_t, std::size_t> index_;
-  std::size_t last_ = 0;
 };
 
 // What one viewpoint looked through, of one block.
@@ -114,50 +73,16 @@ std::vector<SeenCell> find_seen(const PointCloud& cloud, const OccupancyGrid& gr
   return seen;
 }
 
-// Whether something stands between a cell and a viewpoint. The surface that the cell is of is left
-// first, over two cells at least: where it is looked along, cells of it are on the way.
-bool is_hidden(const SeenCell& cell, const CellIndex& viewpoint, const CellSet& opaque) {
-  int gap = 0;
-  bool has_left = false, meets = false;
-  std::uint64_t key = ~std::uint64_t{0};
-  const CellSet::Block* block = nullptr;
-  walk_cells(cell_at(cell.code).cast<double>() + Vec3::Constant(0.5), viewpoint,
-             [&](std::uint64_t code) {
-               if (code >> kBlockBits != key) key = code >> kBlockBits, block = opaque.find(key);
-               const bool is_opaque = block && CellSet::contains(*block, code);
-               gap = is_opaque ? 0 : gap + 1;
-               has_left = has_left || gap == 2;
-               meets = is_opaque && has_left;
-               return !meets;
-             });
-  return meets;
-}
-
 void find_viewers(std::vector<SeenCell>& cells, const PointCloud& cloud,
                   const OccupancyGrid& grid) {
-  if (cloud.viewpoints.size() == 1)
-    for (SeenCell& cell : cells) cell.viewer = 0;
-  if (cloud.viewpoints.size() < 2) return;
   CellSet opaque;
-  for (const SeenCell& cell : cells)
+  std::vector<std::uint64_t> codes;
+  for (const SeenCell& cell : cells) {
+    codes.push_back(cell.code);
     if (cell.points > 1) opaque.insert(cell.code);  // a single point may be a stray
-  parallel_for(part_count(cells.size(), kRaysPerPart), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, cells.size(), kRaysPerPart);
-    std::vector<std::pair<double, std::size_t>> by_distance(cloud.viewpoints.size());
-    const std::size_t candidates = std::min(by_distance.size(), kNearestViewpoints);
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 middle =
-          (cell_at(cells[i].code).cast<double>() + Vec3::Constant(0.5)) * grid.options.resolution;
-      for (std::size_t v = 0; v < by_distance.size(); ++v)
-        by_distance[v] = {(cloud.viewpoints[v] - middle).squaredNorm(), v};
-      const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(candidates);
-      std::partial_sort(by_distance.begin(), last, by_distance.end());
-      const auto viewer = std::find_if(by_distance.begin(), last, [&](const auto& candidate) {
-        return !is_hidden(cells[i], grid.cell_of(cloud.viewpoints[candidate.second]), opaque);
-      });
-      if (viewer != last) cells[i].viewer = viewer->second;
-    }
-  });
+  }
+  const auto viewers = find_viewers(codes, cloud.viewpoints, grid.options.resolution, opaque);
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i].viewer = viewers[i];
 }
 
 // What the viewpoints looked through, by blocks: those of one block are together, and of those the

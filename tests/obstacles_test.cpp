@@ -155,3 +155,69 @@ TEST_CASE("no points, one point and points a long way off are nothing to enclose
   CHECK(enclose(std::vector<Vec3>(1000, Vec3(1e7, -1e7, 1e7))).obstacles.empty());
   CHECK(enclose(std::vector<Vec3>(1000, Vec3(1, 1, 1))).obstacles.empty());
 }
+
+namespace {
+
+// A wall of things, 10 cm thick.
+void add_bank(std::vector<Vec3>& points, const Vec3& low, const Vec3& high, Random& random) {
+  const Vec3 size = high - low;
+  add_crate(points, (low + high) / 2, size, 0, kThingSpacing, kNoise, random);
+}
+
+// The floor, wherever it is seen from above.
+void add_floor(std::vector<Vec3>& points) {
+  for (double x = -4.95; x < 5; x += 0.05)
+    for (double y = -4.95; y < 5; y += 0.05) points.emplace_back(x, y, 0);
+}
+
+// Whether any obstacle holds a place by more than 5 cm.
+bool holds(const World& world, const Vec3& p) { return nearest_outside(world, p) < -0.05; }
+
+}  // namespace
+
+TEST_CASE("no obstacle holds the inside of an L or a U that a viewpoint looks into") {
+  for (const bool is_u : {false, true}) {
+    CAPTURE(is_u);
+    Random random(9);
+    std::vector<Vec3> points;
+    add_bank(points, {-1, -0.05, 0.02}, {1, 0.05, 1}, random);
+    add_bank(points, {-1, 0, 0.02}, {-0.9, 1.5, 1}, random);
+    if (is_u) add_bank(points, {0.9, 0, 0.02}, {1, 1.5, 1}, random);
+    add_floor(points);
+    PointCloud cloud = cloud_of(points);
+    cloud.viewpoints = {{0, 3, 1.5}};
+    const World world = enclose(cloud);
+    CHECK(world.obstacles.size() >= 2);
+    for (double x = -0.6; x < 0.7; x += 0.2)
+      for (double y = 0.3; y < 1.4; y += 0.2)
+        for (double z = 0.25; z < 1; z += 0.2) CHECK_FALSE(holds(world, {x, y, z}));
+  }
+}
+
+TEST_CASE("a shell that was seen from inside is no drum") {
+  Random random(10);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 40000; ++i) {
+    const double angle = random.uniform(-2, 2);
+    points.emplace_back(2 * std::cos(angle), 2 * std::sin(angle), random.uniform(0.02, 2));
+  }
+  add_floor(points);
+  PointCloud cloud = cloud_of(points);
+  cloud.viewpoints = {{0, 0, 1.5}};
+  const World world = enclose(cloud);
+  CHECK(!world.obstacles.empty());
+  for (double x = -0.5; x < 1.5; x += 0.25)
+    for (double z = 0.25; z < 1.9; z += 0.25) CHECK_FALSE(holds(world, {x, 0, z}));
+}
+
+TEST_CASE("a crate stays one box, from wherever it is seen") {
+  Random random(11);
+  std::vector<Vec3> points;
+  add_crate(points, {0, 0, 0.5}, {1, 0.8, 1}, 0.3, kThingSpacing, kNoise, random);
+  add_floor(points);
+  PointCloud cloud = cloud_of(points);
+  cloud.viewpoints = {{3, 3, 1.5}, {-3, 2, 1.5}, {0, -3, 1.5}};
+  const World world = enclose(cloud);
+  REQUIRE(world.obstacles.size() == 1);
+  CHECK(std::holds_alternative<OrientedBox>(world.obstacles[0].shape));
+}

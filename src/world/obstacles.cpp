@@ -35,22 +35,30 @@ Solid rounded(Solid solid) {
 }
 
 std::vector<Candidate> enclose_thing(std::span<const Vec3> thing, double cell, const World& world,
-                                     double noise, const ObstacleOptions& options) {
+                                     double noise, const SeenSpace& seen,
+                                     const ObstacleOptions& options) {
   const Vec3& up = world.frame.up;
-  const auto is_simple = [&](std::span<const Vec3> part) {
-    return fit_simple(part, up, noise, options.solid).has_value();
+  const auto simple_of = [&](std::span<const Vec3> part) {
+    auto simple = fit_simple(part, up, noise, options.solid);
+    if (simple && !spares_free(*simple, world.frame, part, seen, options.spare)) simple.reset();
+    return simple;
   };
+  const auto is_simple = [&](std::span<const Vec3> part) { return simple_of(part).has_value(); };
   std::vector<Candidate> found;
   const auto add = [&](const Solid& solid) {
     Candidate c{.solid = rounded(solid)};
     c.area = area_of(mesh_of(Obstacle{.shape = c.solid}, world.frame));
     found.push_back(std::move(c));
   };
-  if (const auto simple = fit_simple(thing, up, noise, options.solid)) {
+  if (const auto simple = simple_of(thing)) {
     add(*simple);
     return found;
   }
-  const RoundParts parts = find_round_parts(thing, cell, noise, options.round);
+  const auto is_possible = [&](const Ellipsoid& e) {
+    return spares_free(ConvexHull{corners_of(e, options.solid.max_vertices)}, world.frame, thing,
+                       seen, options.spare);
+  };
+  const RoundParts parts = find_round_parts(thing, cell, noise, options.round, is_possible);
   for (const Ellipsoid& e : parts.found) add(ConvexHull{corners_of(e, options.solid.max_vertices)});
   constexpr std::size_t kCrumb = 12;  // what ellipsoids leave around them
   for (const auto& rest : parts.rest) {
@@ -59,7 +67,13 @@ std::vector<Candidate> enclose_thing(std::span<const Vec3> thing, double cell, c
       Box3 box;
       for (const Vec3& p : part) box.extend(p);
       if (box.sizes().maxCoeff() < options.clutter.min_size) continue;
-      add(fit_solid(part, up, noise, options.solid));
+      const Solid solid = fit_solid(part, up, noise, options.solid);
+      if (spares_free(solid, world.frame, part, seen, options.spare)) {
+        add(solid);
+        continue;
+      }
+      for (const OrientedBox& b : cover_by_boxes(part, up, cell, noise, options.spare))
+        if (b.size.maxCoeff() >= options.clutter.min_size) add(b);
     }
   }
   return found;
@@ -71,9 +85,14 @@ Obstacles find_obstacles(const PointCloud& cloud, const std::vector<std::int32_t
                          const World& world, const ClutterScale& scale,
                          const ObstacleOptions& options) {
   const Clutter clutter = find_clutter(cloud, labels, world, scale, options.clutter);
+  Box3 around;
+  for (const Vec3& p : clutter.points) around.extend(p);
+  SeenSpace seen;
+  if (!clutter.points.empty())
+    seen = find_seen_space(cloud, world, around, clutter.cell, options.seen);
   std::vector<std::vector<Candidate>> found(clutter.things());
   parallel_for(found.size(), [&](std::size_t k) {
-    found[k] = enclose_thing(clutter.of(k), clutter.cell, world, scale.noise, options);
+    found[k] = enclose_thing(clutter.of(k), clutter.cell, world, scale.noise, seen, options);
   });
   std::vector<Candidate> all;
   for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
@@ -135,6 +154,23 @@ OptionList list_options(ObstacleOptions& o) {
       {"obstacles.solid.max_empty", &o.solid.max_empty, "",
        "the area of a box in plan is no more than so many times that of its points' hull", 1},
       {"obstacles.solid.max_vertices", &o.solid.max_vertices, "", "of a hull", 6, 1000},
+      {"obstacles.seen.max_lines", &o.seen.max_lines, "", "of sight that are followed", 1},
+      {"obstacles.seen.max_places", &o.seen.max_places, "",
+       "on surfaces that look at each other, where no viewpoint is known", 1},
+      {"obstacles.seen.min_cosine", &o.seen.min_cosine, "",
+       "of a line between two of them to the normal of either", 0, 1},
+      {"obstacles.spare.depth", &o.spare.depth, "m",
+       "in an obstacle, from where space that was seen to be free is wrong", 0},
+      {"obstacles.spare.min_free", &o.spare.min_free, "m3", "less of it is let pass", 0},
+      {"obstacles.spare.min_share", &o.spare.min_share, "",
+       "of an obstacle's volume; less free space in it is let pass too", 0, 1},
+      {"obstacles.spare.max_deep", &o.spare.max_deep, "",
+       "of the points, more than a cell deep in an obstacle, where no viewpoint is known", 0, 1},
+      {"obstacles.spare.min_filled", &o.spare.min_filled, "",
+       "of the cells of each layer of a box around what no simpler solid spares, with points", 0.01,
+       1},
+      {"obstacles.spare.min_points", &o.spare.min_points, "",
+       "one in each cube of half a cell, that no other such box holds", 1},
       {"obstacles.max_obstacles", &o.max_obstacles, "", "the largest are kept", 0},
   };
 }

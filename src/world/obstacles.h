@@ -7,6 +7,8 @@
 #include "clutter.h"
 #include "fit_solid.h"
 #include "round_parts.h"
+#include "seen_space.h"
+#include "spare_seen.h"
 #include "split_clutter.h"
 
 namespace scanworld {
@@ -16,7 +18,9 @@ struct ObstacleOptions {
   RoundPartOptions round;
   SplitClutterOptions split;
   SolidOptions solid;
-  int max_obstacles = 256;  // the largest, by the area of their surface
+  SeenSpaceOptions seen;
+  SpareSeenOptions spare;
+  int max_obstacles = 8192;  // the largest, by the area of their surface
 };
 
 OptionList list_options(ObstacleOptions& options);

@@ -251,9 +251,11 @@ std::vector<std::vector<Vec3>> connected(const std::vector<Vec3>& points, double
 }  // namespace
 
 RoundParts find_round_parts(std::span<const Vec3> thing, double cell, double noise,
-                            const RoundPartOptions& options) {
+                            const RoundPartOptions& options,
+                            const std::function<bool(const Ellipsoid&)>& is_possible) {
   RoundParts parts;
   parts.found = RoundSearch(thing, cell, noise, options).run();
+  if (is_possible) std::erase_if(parts.found, [&](const Ellipsoid& e) { return !is_possible(e); });
   if (parts.found.empty()) {
     parts.rest.emplace_back(thing.begin(), thing.end());
     return parts;

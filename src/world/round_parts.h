@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct RoundParts {
 };
 
 // The ellipsoids that parts of a thing lie on, each seen from enough sides to tell where it ends on
-// the others. `cell` [m]: points no farther from each other are connected.
+// the others. `cell` [m]: points no farther from each other are connected. `is_possible` tells
+// those that may be, as some were seen from inside.
 RoundParts find_round_parts(std::span<const Vec3> thing, double cell, double noise,
-                            const RoundPartOptions& options = {});
+                            const RoundPartOptions& options = {},
+                            const std::function<bool(const Ellipsoid&)>& is_possible = {});
 
 }  // namespace scanworld
