@@ -10,9 +10,9 @@ namespace scanworld::surface {
 
 namespace {
 
-class Tracer {
+class LoopTracer {
  public:
-  Tracer(const std::vector<HalfEdge>& edges, const std::function<Vec2(int)>& at)
+  LoopTracer(const std::vector<HalfEdge>& edges, const std::function<Vec2(int)>& at)
       : edges_(edges), at_(at), used_(edges.size()) {
     cancel();
     for (std::size_t i = 0; i < edges_.size(); ++i)
@@ -83,7 +83,7 @@ class Tracer {
 
 std::vector<std::vector<std::size_t>> trace_loops(const std::vector<HalfEdge>& edges,
                                                   const std::function<Vec2(int)>& at) {
-  return Tracer(edges, at).trace();
+  return LoopTracer(edges, at).trace();
 }
 
 }  // namespace scanworld::surface
