@@ -86,6 +86,23 @@ Fidelity over_floor(const std::vector<Vec3>& points, const FidelityOptions& opti
 
 }  // namespace
 
+TEST_CASE("points are on a rough surface as far off as its own points were, but no farther") {
+  Random random(3);
+  std::vector<Vec3> points;
+  for (int k = 0; k < 4000; ++k)
+    points.emplace_back(random.uniform(), random.uniform(), 0.015 * random.gauss());
+  World world = assemble_world(
+      {{.plane = {Vec3::UnitZ(), 0}, .outer = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}, {});
+  const auto unexplained = [&](double roughness) {
+    world.surfaces[0].support.rms = roughness;
+    return measure_fidelity(world, cloud_of(points), {.noise = 0.002}).unexplained;
+  };
+  CHECK(unexplained(0) > 0.3);
+  CHECK(unexplained(0.015) < 0.002);
+  for (Vec3& p : points) p.z() *= 10;
+  CHECK(unexplained(0.15) > 0.5);
+}
+
 TEST_CASE("a world is faithful to a scan of itself, with and without poses") {
   for (const char* name : {"room", "office", "stairs"}) {
     INFO(name);

@@ -104,11 +104,21 @@ class Measurement {
 
   // What a depth camera's model says is believed; noise and bend that were found may be those of a
   // scan that has no surfaces.
-  double tolerance_of(double noise) const {
-    const double scatter = options_.tolerance_per_noise * std::hypot(noise, bend_);
+  // A surface may be as rough as its own points told.
+  double tolerance_of(double noise, double roughness = 0) const {
+    const double scatter =
+        options_.tolerance_per_noise * std::hypot(std::max(noise, roughness), bend_);
     const double most =
         noise > options_.noise ? options_.tolerance_per_noise * noise : options_.max_tolerance;
     return std::clamp(scatter, options_.min_tolerance, std::max(most, options_.max_tolerance));
+  }
+
+  // At a point, by what it may be on.
+  double tolerance_at(std::size_t point) const {
+    const auto& near = near_[point];
+    const double roughness =
+        near && near->is_surface ? world_.surfaces[near->index].support.rms : 0;
+    return tolerance_of(noise_[point], roughness);
   }
 
   void refuse_another_place() const {
@@ -145,7 +155,7 @@ class Measurement {
     result.atlas.points.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
       double distance = near_[i] ? near_[i]->distance : max_distance_;
-      const double tolerance = tolerance_of(noise_[i]);
+      const double tolerance = tolerance_at(i);
       inside[i] = distance > tolerance && is_in_obstacle(points_[i]);
       if (inside[i]) distance = 0;
       explained_[i] = distance <= tolerance;
@@ -159,7 +169,7 @@ class Measurement {
     std::size_t near = 0, close = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (result.atlas.points[i].surface < 0) continue;
-      ++near, close += near_[i]->distance <= tolerance_of(noise_[i]) / 2;
+      ++near, close += near_[i]->distance <= tolerance_at(i) / 2;
     }
     if (near > 0) result.close = static_cast<double>(close) / static_cast<double>(near);
     result.inside = static_cast<double>(std::count(inside.begin(), inside.end(), 1)) /
@@ -208,7 +218,8 @@ class Measurement {
       SurfaceFidelity& surface = result.surfaces[s];
       surface.points = around[s].offsets.size();
       if (surface.points == 0) continue;
-      const double tolerance = tolerance_of(median(around[s].noise));
+      const double tolerance =
+          tolerance_of(median(around[s].noise), world_.surfaces[s].support.rms);
       surface.rms = std::sqrt(around[s].squares / static_cast<double>(surface.points));
       surface.offset = densest(around[s].offsets, tolerance);
       if (surface.points >= options_.min_points_each &&
