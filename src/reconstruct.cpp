@@ -282,6 +282,10 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     return confirm(grid, neighbors, scale, local, std::move(clusters), options,
                    watch(recorder, "Evidence"));
   });
+  clusters = log.run("Finding rough surfaces", "clusters -> clusters", clusters, [&] {
+    return find_rough(grid, neighbors, scale, std::move(clusters), options,
+                      watch(recorder, "Evidence"));
+  });
   clusters = log.run("Regularising", "clusters -> clusters", clusters,
                      [&] { return regularise(scale, std::move(clusters), options.regularise); });
   local = {};
@@ -354,7 +358,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 26);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 27);
   Found found = options.method == Method::thesis
                     ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder),
                             {.viewpoints = cloud.viewpoints},

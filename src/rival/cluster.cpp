@@ -55,7 +55,9 @@ double square_bend(const MomentFit& fit, const Scale& scale) {
 
 std::vector<double> square_bends(const Clustering& c, const Scale& scale) {
   std::vector<double> bends;
-  for (const Cluster& cluster : c.clusters) bends.push_back(square_bend(cluster.fit, scale));
+  for (const Cluster& cluster : c.clusters)
+    bends.push_back(
+        std::max(square_bend(cluster.fit, scale), cluster.roughness * cluster.roughness));
   return bends;
 }
 
@@ -66,7 +68,7 @@ void refit(const Grid& grid, Clustering& c) {
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (sums[k].n < kMinPoints) continue;
     to[k] = static_cast<std::int32_t>(kept.size());
-    kept.push_back({sums[k], fit(sums[k])});
+    kept.push_back({sums[k], fit(sums[k]), c.clusters[k].roughness});
   }
   c.clusters = std::move(kept);
   for (std::int32_t& l : c.label)

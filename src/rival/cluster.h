@@ -20,6 +20,7 @@ constexpr std::int32_t kNone = -1;
 struct Cluster {
   Moments moments;
   MomentFit fit;
+  double roughness = 0;  // [m] of a surface that is rough beside what noise and bend explain
 };
 
 // Which cluster each site is in, or kNone.
@@ -49,6 +50,11 @@ inline std::size_t count_of(const Clustering& c) { return c.clusters.size(); }
 
 // The larger extent of a cluster [m].
 inline double extent_of(const MomentFit& fit) { return std::sqrt(12 * fit.variance[2]); }
+
+// The area that points spread evenly with these variances cover [m2].
+inline double area_of(const MomentFit& fit) {
+  return 12 * std::sqrt(fit.variance[1] * fit.variance[2]);
+}
 
 // The square of how far the surface of a cluster may be off its plane by itself [m2]: as far as
 // those of its extent are in this scan, or as its own points tell, within limits.

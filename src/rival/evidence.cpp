@@ -19,41 +19,9 @@ constexpr double kSure = std::numeric_limits<double>::infinity();  // odds of wh
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// The share of the points' variance off the plane that a quadratic surface explains, beyond what it
-// would by chance.
-double measure_curvature(const Grid& grid, const std::vector<std::uint32_t>& sites,
-                         const MomentFit& f) {
-  const PlaneFrame frame = frame_of(f.plane, f.centroid);
-  const double unit = std::sqrt(f.variance[2]) + 1e-9;
-  Mat6 a = Mat6::Zero();
-  Vec6 b = Vec6::Zero();
-  double total = 0, n = 0;
-  for (std::uint32_t i : sites) {
-    const Site& s = grid.sites[i];
-    const Vec2 q = frame.to_plane(s.position()) / unit;
-    const double h = f.plane.signed_distance(s.position()), w = s.points;
-    Vec6 row;
-    row << 1, q.x(), q.y(), q.x() * q.x(), q.x() * q.y(), q.y() * q.y();
-    a += w * row * row.transpose();
-    b += w * h * row;
-    total += w * (h * h + std::max(0.0, s.variance(f.plane.normal)));
-    n += w;
-  }
-  // Against the plane fitted the same way, so that only the bend counts.
-  const Vec6 quadric = a.ldlt().solve(b);
-  const Vec3 plane = a.topLeftCorner<3, 3>().ldlt().solve(b.head<3>());
-  const double explained = quadric.dot(b) - plane.dot(b.head<3>());
-  const double left = total - plane.dot(b.head<3>());
-  return left > 0 && explained > 0 ? explained / left - 3 / n : 0;
-}
-
-double area_of(const Cluster& cluster) {
-  return 12 * std::sqrt(cluster.fit.variance[1] * cluster.fit.variance[2]);
-}
-
 bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
                   const EvidenceOptions& options) {
-  const double n = cluster.moments.n, area = area_of(cluster);
+  const double n = cluster.moments.n, area = area_of(cluster.fit);
   if (n < options.min_points) return true;
   // Noise spreads a plane's points over more than one voxel.
   const double seen = 0.6 * static_cast<double>(sites) * scale.voxel * scale.voxel;
@@ -111,40 +79,18 @@ double measure_contact(const Neighbors& neighbors, const Clustering& c,
          static_cast<double>(sites.size());
 }
 
-// The share that the voxels of a cluster have of the smallest rectangle around them. Leaves and
-// cushions have rags for borders.
-double measure_fill(const Grid& grid, const std::vector<std::uint32_t>& sites, const MomentFit& f) {
-  constexpr int kTurns = 45;  // of two degrees
-  const PlaneFrame frame = frame_of(f.plane, f.centroid);
-  std::vector<Vec2> at;
-  std::set<std::pair<int, int>> cells;
-  for (std::uint32_t i : sites) {
-    at.push_back(frame.to_plane(grid.sites[i].position()));
-    const Vec2 cell = at.back() / grid.voxel;
-    cells.insert({static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y()))});
-  }
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kTurns; ++k) {
-    const Eigen::Rotation2Dd turn(k * M_PI / (2 * kTurns));
-    Eigen::AlignedBox2d box;
-    for (const Vec2& p : at) box.extend(turn * p);
-    smallest = std::min(smallest, (box.sizes().array() + grid.voxel).prod());
-  }
-  return static_cast<double>(cells.size()) * grid.voxel * grid.voxel / smallest;
-}
-
 Traits find_traits(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const Clustering& c, const std::vector<std::uint32_t>& sites, std::size_t k,
                    double explained) {
   const Cluster& cluster = c.clusters[k];
-  const double n = cluster.moments.n, area = area_of(cluster);
+  const double n = cluster.moments.n, area = area_of(cluster.fit);
   return {.roughness = std::sqrt(cluster.fit.variance[0] / expected_square(cluster, scale)),
           .curvature = measure_curvature(grid, sites, cluster.fit),
           .contact = measure_contact(neighbors, c, sites),
           .explained = explained / n,
           .area = area,
           .density = n * scale.spacing * scale.spacing / area,
-          .fill = measure_fill(grid, sites, cluster.fit)};
+          .fill = measure_fill(grid, sites, cluster.fit, grid.voxel)};
 }
 
 // What all odds are to be multiplied by, as a logarithm, where the share of planes in this scan is
@@ -171,6 +117,53 @@ void drop_clusters(const std::vector<char>& marked, Clustering& c) {
 
 }  // namespace
 
+double measure_curvature(const Grid& grid, const std::vector<std::uint32_t>& sites,
+                         const MomentFit& f) {
+  const PlaneFrame frame = frame_of(f.plane, f.centroid);
+  const double unit = std::sqrt(f.variance[2]) + 1e-9;
+  Mat6 a = Mat6::Zero();
+  Vec6 b = Vec6::Zero();
+  double total = 0, n = 0;
+  for (std::uint32_t i : sites) {
+    const Site& s = grid.sites[i];
+    const Vec2 q = frame.to_plane(s.position()) / unit;
+    const double h = f.plane.signed_distance(s.position()), w = s.points;
+    Vec6 row;
+    row << 1, q.x(), q.y(), q.x() * q.x(), q.x() * q.y(), q.y() * q.y();
+    a += w * row * row.transpose();
+    b += w * h * row;
+    total += w * (h * h + std::max(0.0, s.variance(f.plane.normal)));
+    n += w;
+  }
+  // Against the plane fitted the same way, so that only the bend counts.
+  const Vec6 quadric = a.ldlt().solve(b);
+  const Vec3 plane = a.topLeftCorner<3, 3>().ldlt().solve(b.head<3>());
+  const double explained = quadric.dot(b) - plane.dot(b.head<3>());
+  const double left = total - plane.dot(b.head<3>());
+  return left > 0 && explained > 0 ? explained / left - 3 / n : 0;
+}
+
+double measure_fill(const Grid& grid, const std::vector<std::uint32_t>& sites, const MomentFit& f,
+                    double cell) {
+  constexpr int kTurns = 45;  // of two degrees
+  const PlaneFrame frame = frame_of(f.plane, f.centroid);
+  std::vector<Vec2> at;
+  std::set<std::pair<int, int>> cells;
+  for (std::uint32_t i : sites) {
+    at.push_back(frame.to_plane(grid.sites[i].position()));
+    const Vec2 c = at.back() / cell;
+    cells.insert({static_cast<int>(std::floor(c.x())), static_cast<int>(std::floor(c.y()))});
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kTurns; ++k) {
+    const Eigen::Rotation2Dd turn(k * M_PI / (2 * kTurns));
+    Eigen::AlignedBox2d box;
+    for (const Vec2& p : at) box.extend(turn * p);
+    smallest = std::min(smallest, (box.sizes().array() + cell).prod());
+  }
+  return static_cast<double>(cells.size()) * cell * cell / smallest;
+}
+
 double log_odds(const Traits& t) {
   const auto log_of = [](double x, double low, double high) {
     return std::log(std::clamp(x, low, high));
@@ -191,7 +184,7 @@ Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Sc
     const Cluster& cluster = c.clusters[k];
     drop[k] = is_too_small(cluster, members[k].size(), scale, options) ||
               explained[k] > options.explained_share * cluster.moments.n;
-    if (!drop[k] && area_of(cluster) < options.small_area)
+    if (!drop[k] && area_of(cluster.fit) < options.small_area)
       odds[k] = log_odds(find_traits(grid, neighbors, scale, c, members[k], k, explained[k]));
   });
   std::vector<double> weighed;

@@ -34,6 +34,16 @@ struct Traits {
   double fill = 0;       // share that it has of the smallest rectangle around it
 };
 
+// The share of the points' variance off their plane that a quadratic surface explains, beyond what
+// it would by chance.
+double measure_curvature(const Grid& grid, const std::vector<std::uint32_t>& sites,
+                         const MomentFit& fit);
+
+// The share that the cells of this size [m] in which sites are have of the smallest rectangle
+// around them. Leaves and cushions have rags for borders.
+double measure_fill(const Grid& grid, const std::vector<std::uint32_t>& sites, const MomentFit& fit,
+                    double cell);
+
 // The logarithm of the odds that a cluster with these traits is a plane.
 double log_odds(const Traits& traits);
 

@@ -9,7 +9,8 @@ namespace scanworld::rival {
 double square_limit(const Cluster& a, const Cluster& b, double bend, const Scale& scale,
                     double max_rms) {
   const double noise = std::max(scale.noise_at(a.fit.centroid), scale.noise_at(b.fit.centroid));
-  return max_rms * max_rms * (noise * noise + bend * bend);
+  const double off = std::max({bend, a.roughness, b.roughness});
+  return max_rms * max_rms * (noise * noise + off * off);
 }
 
 double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, double max_rms,
@@ -27,6 +28,7 @@ void Joiner::join(std::size_t a, std::size_t b) {
   Cluster& whole = c_.clusters[low];
   whole.moments += c_.clusters[high].moments;
   whole.fit = fit(whole.moments);
+  whole.roughness = std::max(whole.roughness, c_.clusters[high].roughness);
   sets_.unite(low, high);
 }
 

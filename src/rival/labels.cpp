@@ -71,8 +71,10 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
           const double square = std::pow(c.plane(a.label).signed_distance(p), 2);
           const double expected = variance + bends[k];
           if (square > std::min(max_square * expected, own_square[k])) continue;
-          if (square / expected + a.price < best)
-            best = square / expected + a.price, label = a.label;
+          double price = square / expected + a.price;
+          // A Gaussian that is wider is lower.
+          if (c.clusters[k].roughness > 0) price += std::log(expected / variance);
+          if (price < best) best = price, label = a.label;
         }
         if (label == kNone) continue;
         labels[point] = label;

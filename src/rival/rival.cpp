@@ -2,12 +2,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rival.h"
 
+#include <algorithm>
+
 namespace scanworld::rival {
 
 namespace {
 
 void tell(const Observer& observe, std::string_view what, const Clustering& clusters) {
   if (observe) observe(what, clusters);
+}
+
+// The places of what is left are about a voxel apart.
+Scale scale_of_rough(Scale scale, double roughness, const ScaleOptions& options) {
+  scale.noise = roughness;
+  scale.spacing = scale.voxel;
+  scale.voxel =
+      std::max(options.voxel_per_spacing * scale.spacing, options.voxel_per_noise * scale.noise);
+  return scale;
+}
+
+// Parts the rough clusters; the others stay as they are.
+Clustering part_rough(const Grid& grid, const Neighbors& neighbors, Clustering c,
+                      const SplitOptions& options) {
+  const auto is_rough = [](const Cluster& k) { return k.roughness > 0; };
+  if (std::none_of(c.clusters.begin(), c.clusters.end(), is_rough)) return c;
+  const Clustering parted = split_clusters(grid, neighbors, c, options);
+  const auto first = static_cast<std::int32_t>(c.clusters.size());
+  for (std::size_t i = 0; i < c.label.size(); ++i)
+    if (c.label[i] != kNone && is_rough(c.clusters[static_cast<std::size_t>(c.label[i])]))
+      c.relabel(i, parted.label[i] == kNone ? kNone : first + parted.label[i]);
+  c.clusters.insert(c.clusters.end(), parted.clusters.begin(), parted.clusters.end());
+  refit(grid, c);
+  return c;
 }
 
 }  // namespace
@@ -60,6 +86,27 @@ Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& sc
   c = drop_columns(grid, neighbors, scale, std::move(c), options.columns);
   tell(observe, "what is no plane is dropped", c);
   return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
+}
+
+Clustering find_rough(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                      Clustering c, const RivalOptions& options, const Observer& observe) {
+  for (double roughness : list_roughness(scale, options.rough)) {
+    const Leftover left = find_leftover(grid, neighbors, c);
+    if (left.sites.empty()) break;
+    const Scale coarse = scale_of_rough(scale, roughness, options.scale);
+    const Grid places = build_grid(left.places, coarse.voxel);
+    const Neighbors around = find_neighbors(places, options.neighbors);
+    const std::vector<LocalPlane> local = fit_locally(places, around, coarse, options.local);
+    Clustering found = grow_clusters(places, around, coarse, local, {}, options.growth);
+    found = compete(places, around, coarse, local, std::move(found), options.rivalry);
+    MergeOptions merge = options.merge;
+    merge.min_step = std::max(merge.min_step, 2 * roughness);
+    found = merge_clusters(places, around, coarse, std::move(found), merge);
+    c = take_rough(grid, neighbors, scale, std::move(c), left, places, found, options.rough);
+  }
+  c = part_rough(grid, neighbors, std::move(c), options.split);
+  tell(observe, "rough surfaces are found in what is left", c);
+  return c;
 }
 
 OptionList list_options(RivalOptions& o) {
@@ -205,6 +252,24 @@ OptionList list_options(RivalOptions& o) {
       {"rival.curves.max_wide_turn", &o.curves.max_wide_turn, "rad", "as max_turn", 0},
       {"rival.curves.max_point_distance", &o.curves.max_point_distance, "noise and roundness",
        "points farther from a curve are not on it", 0},
+      {"rival.rough.max_roughness", &o.rough.max_roughness, "m",
+       "of surfaces that is looked for in what is left; half more is found; 0 = all are smooth", 0},
+      {"rival.rough.step", &o.rough.step, "",
+       "by which roughness is less, each time that is looked", 1.1},
+      {"rival.rough.min_roughness", &o.rough.min_roughness, "noise",
+       "what is less rough is found without", 1},
+      {"rival.rough.min_area", &o.rough.min_area, "m2", "of a rough surface", 0},
+      {"rival.rough.min_width", &o.rough.min_width, "roughness", "and of its lesser extent", 0},
+      {"rival.rough.min_fill", &o.rough.min_fill, "",
+       "share that it has of the smallest rectangle around it", 0, 1},
+      {"rival.rough.max_beside", &o.rough.max_beside, "",
+       "voxels before or behind it that are left, against its own", 0},
+      {"rival.rough.max_curvature", &o.rough.max_curvature, "",
+       "share of its roughness that a quadratic surface explains", 0, 1},
+      {"rival.rough.small_area", &o.rough.small_area, "m2",
+       "smaller clusters within its roughness are pieces of it", 0},
+      {"rival.rough.max_smoother", &o.rough.max_smoother, "",
+       "and larger ones, if they are no more times smoother", 1},
       {"rival.regularise.max_angle", &o.regularise.max_angle, "rad",
        "planes that differ by less may be parallel or square; 0 = none is turned", 0, 0.5},
       {"rival.regularise.max_rise", &o.regularise.max_rise, "",

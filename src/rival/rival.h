@@ -18,6 +18,7 @@
 #include "neighbors.h"
 #include "regularise.h"
 #include "rivalry.h"
+#include "rough.h"
 #include "scale.h"
 #include "sides.h"
 #include "split.h"
@@ -39,6 +40,7 @@ struct RivalOptions {
   BridgeOptions bridge;
   EvidenceOptions evidence;
   ColumnOptions columns;
+  RoughOptions rough;
   CurveOptions curves;
   RegulariseOptions regularise;
   LabelOptions labels;
@@ -68,5 +70,11 @@ Clustering part(const Grid& grid, const Neighbors& neighbors, const Scale& scale
 Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const std::vector<LocalPlane>& local, Clustering clustering,
                    const RivalOptions& options = {}, const Observer& observe = {});
+
+// Looks again at what is left, each time more coarsely, for surfaces that are rougher than noise
+// and bend explain: stone, brick, curtains, hedges, and what a depth camera sees from afar.
+Clustering find_rough(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
+                      Clustering clustering, const RivalOptions& options = {},
+                      const Observer& observe = {});
 
 }  // namespace scanworld::rival
