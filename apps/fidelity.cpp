@@ -12,6 +12,7 @@
 #include "cli.h"
 #include "reconstruct.h"
 #include "rival/scale.h"
+#include "scan/distinct.h"
 #include "scan/read_scan.h"
 
 namespace scanworld::cli {
@@ -79,7 +80,9 @@ PointCloud read_scan_with_poses(const std::vector<std::filesystem::path>& scans,
   return cloud;
 }
 
-Fidelity fidelity_of(const World& world, const PointCloud& cloud, std::size_t points) {
+Fidelity fidelity_of(const World& world, const PointCloud& scan, std::size_t points) {
+  const DistinctPoints distinct = find_distinct(scan);
+  const PointCloud& cloud = distinct.of(scan);
   ReconstructOptions options;
   apply_preset(options, preset_for(cloud));
   const OptionList list = list_options(options);

@@ -11,6 +11,7 @@
 #include "quantile.h"
 #include "record.h"
 #include "rival/curve_points.h"
+#include "scan/distinct.h"
 #include "surface/describe.h"
 #include "thesis/labels.h"
 #include "thesis/triangulation.h"
@@ -60,6 +61,7 @@ double median_rms(const std::vector<FoundSurface>& surfaces) {
 
 // A scan with more than this is hardly one in metres.
 constexpr double kLargestNoise = 0.3, kLargestSpacing = 1.5;  // [m]
+constexpr double kManyDuplicates = 0.01;                      // of the points; fewer are no news
 
 // The stages of the thesis, by the names in its Table 4, and what comes after them.
 std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
@@ -354,11 +356,20 @@ void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, St
 
 }  // namespace
 
-ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
+ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& options,
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 15 : 27);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 28);
+  const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
+                                          [&] { return find_distinct(scan); });
+  const PointCloud& cloud = distinct.of(scan);
+  result.report.duplicates = count_of(distinct);
+  if (static_cast<double>(result.report.duplicates) >
+      kManyDuplicates * static_cast<double>(scan.points.size()))
+    result.report.warnings.push_back(
+        fmt::format("{} of {} points are at the very place of another and count for nothing",
+                    result.report.duplicates, scan.points.size()));
   Found found = options.method == Method::thesis
                     ? Found{find_by_thesis(cloud, options.thesis, log, result, recorder),
                             {.viewpoints = cloud.viewpoints},
@@ -392,6 +403,8 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   // A label names a surface; a curve has many.
   for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
     if (result.curve_labels[i] >= 0) result.labels[i] = -1;
+  result.labels = distinct.expand(std::move(result.labels));
+  result.curve_labels = distinct.expand(std::move(result.curve_labels));
   world = level_world(std::move(world), options.frame);
   RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
                         [&] { return find_rooms(world, options.rooms); });

@@ -27,7 +27,8 @@ struct StageReport {
 // What was found on the way from a scan to a world.
 struct Report {
   std::vector<StageReport> stages;
-  double scale = 0;  // [m] the length that the method measured in
+  std::size_t duplicates = 0;  // points at the very place of another, which count for nothing
+  double scale = 0;            // [m] the length that the method measured in
   // [m] of the points off their surfaces, as estimated and used; the median of the surfaces' rms
   // where the method uses none.
   double noise = 0;

@@ -3,7 +3,6 @@
 #include "fidelity_samples.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "../mix.h"
@@ -25,11 +24,8 @@ std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
   parallel_for(parts.size(), [&](std::size_t i) {
     const auto [begin, end] = part_of(i, cloud.size(), kPart);
     for (std::size_t k = begin; k < end; ++k) {
-      const Vec3f p = cloud.cloud().points[k] + Vec3f::Zero();  // makes -0 a 0
-      const auto bits = [&](int axis) {
-        return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(p[axis]));
-      };
-      const std::uint64_t rank = mix(mix(bits(0) << 32 | bits(1)) ^ (bits(2) + 1)) >> 11;
+      const Vec3f& p = cloud.cloud().points[k];
+      const std::uint64_t rank = hash_of_place(p.x(), p.y(), p.z()) >> 11;
       if (rank <= limit) parts[i].push_back({rank, static_cast<std::uint32_t>(k)});
     }
   });
