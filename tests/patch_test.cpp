@@ -49,3 +49,28 @@ TEST_CASE("what is sparse is no less there: its gaps say little") {
   CHECK(dense > 0);
   CHECK(sparse > 0);
 }
+
+TEST_CASE("scan lines far apart cover what is between them, a narrow strip nothing beside it") {
+  const auto patch_of = [](int lines, double apart) {
+    LabelledScan scan;
+    scan.planes.push_back({Vec3::UnitZ(), 0});
+    for (int k = 0; k < lines; ++k)
+      for (int i = 0; i < 400; ++i)
+        scan.cloud.points.push_back(Vec3(0.005 * i, 0.01 + apart * k, 0).cast<float>());
+    scan.labels.assign(scan.cloud.points.size(), 0);
+    return find_patches(scan.cloud, scan.members(), scan.planes, 0.04)[0];
+  };
+  for (const double apart : {0.12, 0.2, 0.3}) {
+    const int lines = 6;
+    const Patch patch = patch_of(lines, apart);
+    double sum = 0;  // [m2]
+    for (std::size_t i = 0; i < patch.evidence.size(); ++i) {
+      const Vec3 p = patch.frame.to_space(patch.middle[i]);
+      if (p.x() > 0 && p.x() < 2 && p.y() > 0 && p.y() < (lines - 1) * apart)
+        sum += static_cast<double>(patch.evidence[i]) * patch.hit.cell * patch.hit.cell;
+    }
+    CHECK(sum > 0.6 * 2 * (lines - 1) * apart);
+  }
+  CHECK(patch_of(1, 0).hit.cell == 0.04);
+  CHECK(patch_of(40, 0.005).hit.cell == 0.04);
+}

@@ -60,6 +60,10 @@ class PatchMaker {
     Patch patch{.plane = plane, .frame = frame_of(plane)};
     if (members_.empty()) return patch;
     rasterize(patch);
+    if (const int lines = lines_apart(patch.hit); lines > 1) {
+      cell_ *= lines;
+      rasterize(patch);
+    }
     weigh(patch);
     return patch;
   }
@@ -96,6 +100,26 @@ class PatchMaker {
         patch.middle[i] = hit.low + cell_ * (Vec2(x, y) + within);
       }
     patch.covered = close(hit, gap_of(hit));
+  }
+
+  // [cells] between the scan lines that points are dense along, 1 where there are none: closing the
+  // gaps between lines makes so much more of them, but little more of anything else.
+  int lines_apart(const Raster& hit) const {
+    constexpr int kReach = 6;       // half of the widest gap
+    constexpr double kDense = 2.2;  // points in cells that have some
+    constexpr double kLeast = 1.8;  // ragged things have less
+    const auto count = [](const Raster& raster) {
+      return static_cast<double>(std::count(raster.bits.begin(), raster.bits.end(), 1));
+    };
+    const double lines = count(hit);
+    if (static_cast<double>(members_.size()) < kDense * lines) return 1;
+    Raster room{.width = hit.width + 2 * kReach, .height = hit.height + 2 * kReach};
+    room.bits.assign(room.index(0, room.height), 0);
+    for (int y = 0; y < hit.height; ++y)
+      for (int x = 0; x < hit.width; ++x)
+        room.bits[room.index(x + kReach, y + kReach)] = hit.is_set(x, y);
+    const double times = count(close(room, kReach)) / lines;
+    return times < kLeast ? 1 : static_cast<int>(std::ceil(std::min(times, 8.0)));
   }
 
   // [cells] half of the widest gap that is to be expected between points.
@@ -167,7 +191,7 @@ class PatchMaker {
 
   const PointCloud& cloud_;
   std::span<const std::uint32_t> members_;
-  const double cell_;
+  double cell_;
   const PatchOptions& options_;
   std::vector<std::uint32_t> count_;  // points in each cell
 };
