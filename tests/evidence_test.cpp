@@ -132,12 +132,43 @@ TEST_CASE("plates are kept that have the points and the area") {
   CHECK(is_kept(plate(0.6, 0.6, 0.02, 0.03)));
 }
 
-TEST_CASE("a few points over a large area are no plane, where the scan is dense") {
-  Stages sparse = plate(2, 2, 0.2, 0.004);
+TEST_CASE(
+    "far walls are planes, however sparse, if nothing lies beside them and they do not bend") {
+  Stages sparse = plate(3, 3, 0.2, 0.004);
   CHECK(is_kept(sparse));
   sparse.scale.spacing = 0.02;
-  CHECK_FALSE(is_kept(sparse));
-  CHECK(is_kept(sparse, {.sparse_points = 80}));
+  CHECK(is_kept(sparse));
+  CHECK_FALSE(is_kept(sparse, {.min_sparse_points = 300}));
+  CHECK(is_kept(sparse, {.sparse_points = 80, .min_sparse_points = 300}));
+  PointCloud bowl;
+  Random random(8);
+  for (int i = 0; i < 250; ++i) {
+    const double x = random.uniform(-1.5, 1.5), y = random.uniform(-1.5, 1.5);
+    bowl.points.push_back(Vec3(x, y, 0.02 * (x * x + y * y)).cast<float>());
+  }
+  Stages bent = run_stages(bowl, known_scale(0.02, 0.2));
+  bent.scale.spacing = 0.02;
+  CHECK_FALSE(is_kept(bent));
+  CHECK(is_kept(bent, {.max_curvature = 1}));
+}
+
+TEST_CASE("strays all over a place are no plane, though some lie in one") {
+  Random random(9);
+  PointCloud cloud;
+  for (int i = 0; i < 4000; ++i)
+    cloud.points.push_back(
+        Vec3(random.uniform(0, 4), random.uniform(0, 4), random.uniform(-0.5, 0.5)).cast<float>());
+  Stages s = run_stages(std::move(cloud), known_scale(0.01, 0.1), false);
+  s.scale.spacing = 0.02;
+  const Clustering start =
+      label_sites(s.grid, [](const Vec3& p) { return std::abs(p.z()) < 0.03 ? 0 : kNone; });
+  REQUIRE(start.clusters[0].moments.n > EvidenceOptions().min_sparse_points);
+  const auto kept = [&](const EvidenceOptions& options) {
+    const Clustering c = weigh_evidence(s.grid, s.neighbors, s.scale, start, options);
+    return std::count(c.label.begin(), c.label.end(), 0) > 0;
+  };
+  CHECK_FALSE(kept({}));
+  CHECK(kept({.min_purity = 0}));
 }
 
 TEST_CASE("a layer in the noise of a larger cluster goes, one behind it stays") {

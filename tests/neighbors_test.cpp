@@ -69,6 +69,24 @@ TEST_CASE("a site's neighbours are all of the smallest cube that holds points an
   CHECK(count_of(neighbors) == sum);
 }
 
+TEST_CASE("a single ring of a lidar is no neighbourhood: it reaches for the next one") {
+  PointCloud cloud;
+  const double apart = 0.15;
+  for (int ring = 0; ring < 5; ++ring)
+    for (int i = 0; i < 400; ++i)
+      cloud.points.push_back(Vec3(0.005 * i, apart * ring, 0).cast<float>());
+  const Grid grid = build_grid(cloud, 0.04);
+  const Neighbors neighbors = find_neighbors(grid, {.max_reach = 8});
+  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
+    double low = 10, high = -10;
+    for (const std::uint32_t j : neighbors.of(i)) {
+      low = std::min(low, grid.sites[j].position().y());
+      high = std::max(high, grid.sites[j].position().y());
+    }
+    CHECK(high - low > 0.9 * apart);
+  }
+}
+
 TEST_CASE("sites that a mask leaves out have no neighbours and are none") {
   const Grid grid = build_grid(uneven_points(), 0.05);
   Random random(3);

@@ -19,6 +19,19 @@ constexpr double kSure = std::numeric_limits<double>::infinity();  // odds of wh
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+// The share that a cluster has of the points around its sites that are in no larger one. Strays all
+// over a place lie in some plane too, but most of them lie beside it.
+double measure_purity(const Grid& grid, const Neighbors& neighbors, const Clustering& c,
+                      const std::vector<std::uint32_t>& sites, std::size_t k) {
+  double own = 0, free = 0;
+  for (const std::uint32_t i : sites)
+    for (const std::uint32_t j : neighbors.of(i)) {
+      if (c.label[j] == static_cast<std::int32_t>(k)) own += grid.sites[j].points;
+      if (c.label[j] == kNone) free += grid.sites[j].points;
+    }
+  return own / std::max(1.0, own + free);
+}
+
 bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
                   const EvidenceOptions& options) {
   const double n = cluster.moments.n, area = area_of(cluster.fit);
@@ -27,9 +40,13 @@ bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
   const double seen = 0.6 * static_cast<double>(sites) * scale.voxel * scale.voxel;
   const double noise = scale.noise_at(cluster.fit.centroid);
   if (seen < options.min_area || area < std::pow(options.area_noise * noise, 2)) return true;
-  if (std::sqrt(12 * cluster.fit.variance[1]) < options.min_width * scale.voxel) return true;
-  return n < options.sparse_points &&
-         n * scale.spacing * scale.spacing < options.min_density * area;
+  return std::sqrt(12 * cluster.fit.variance[1]) < options.min_width * scale.voxel;
+}
+
+// Whether a cluster has few points for its area.
+bool is_sparse(const Cluster& cluster, const Scale& scale, const EvidenceOptions& options) {
+  return cluster.moments.n < options.sparse_points &&
+         cluster.moments.n * scale.spacing * scale.spacing < options.min_density * area_of(cluster.fit);
 }
 
 // The square of what the points of a cluster are off its plane where it is as flat as the scan's
@@ -183,7 +200,11 @@ Clustering weigh_evidence(const Grid& grid, const Neighbors& neighbors, const Sc
   parallel_for(c.clusters.size(), [&](std::size_t k) {
     const Cluster& cluster = c.clusters[k];
     drop[k] = is_too_small(cluster, members[k].size(), scale, options) ||
-              explained[k] > options.explained_share * cluster.moments.n;
+              explained[k] > options.explained_share * cluster.moments.n ||
+              (is_sparse(cluster, scale, options) &&
+               (cluster.moments.n < options.min_sparse_points ||
+                measure_purity(grid, neighbors, c, members[k], k) < options.min_purity ||
+                measure_curvature(grid, members[k], cluster.fit) > options.max_curvature));
     if (!drop[k] && area_of(cluster.fit) < options.small_area)
       odds[k] = log_odds(find_traits(grid, neighbors, scale, c, members[k], k, explained[k]));
   });

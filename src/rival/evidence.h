@@ -10,11 +10,14 @@ namespace scanworld::rival {
 
 struct EvidenceOptions {
   double min_points = 40;
-  double min_area = 0.01;         // [m2]
-  double area_noise = 18;         // and the square of this many times the noise
-  double min_width = 2.1;         // [voxel] narrower ones are mixtures in the voxels of an edge
-  double min_density = 0.1;       // points where the spacing of the scan leads to expect one
-  double sparse_points = 300;     // clusters with so many may be less dense
+  double min_area = 0.01;          // [m2]
+  double area_noise = 18;          // and the square of this many times the noise
+  double min_width = 2.1;          // [voxel] narrower ones are mixtures in the voxels of an edge
+  double min_density = 0.1;        // points where the spacing of the scan leads to expect one
+  double sparse_points = 300;      // clusters with so many may be less dense ...
+  double min_sparse_points = 100;  // ... and those with so many ...
+  double min_purity = 0.95;        // ... that hold so much of what is around them ...
+  double max_curvature = 0.2;      // ... if a quadric explains no more of their variance
   double explained_share = 0.7;   // of the points that larger clusters next to them explain as well
   double explained_distance = 2;  // [noise] from the larger one's plane
   double small_area = 2;          // [m2] smaller clusters are weighed: they may be pieces of things

@@ -95,6 +95,25 @@ class VoxelCube {
   std::vector<Cell> found_;
 };
 
+// Whether sites lie along one line, as those of a single ring of a lidar do: their points span no
+// plane, however many they are.
+bool is_line(const Grid& grid, std::span<const std::uint32_t> sites) {
+  constexpr double kLeastSpread = 0.05;
+  Vec3 sum = Vec3::Zero();
+  Mat3 products = Mat3::Zero();
+  const Vec3 origin = grid.sites[sites[0]].position();
+  for (const std::uint32_t j : sites) {
+    const Vec3 p = grid.sites[j].position() - origin;
+    sum += p;
+    products += p * p.transpose();
+  }
+  const double n = static_cast<double>(sites.size());
+  const Mat3 scatter = products - sum * sum.transpose() / n;
+  // Twice the sum of the products of two eigenvalues each.
+  const double square = scatter.trace() * scatter.trace();
+  return square - scatter.squaredNorm() < kLeastSpread * square;
+}
+
 // Appends the neighbours of site i to a list.
 void add_neighbors(const Grid& grid, std::size_t i, const NeighborOptions& options,
                    const std::vector<std::uint8_t>& only, VoxelCube& cube,
@@ -112,13 +131,17 @@ void add_neighbors(const Grid& grid, std::size_t i, const NeighborOptions& optio
     return points >= static_cast<std::size_t>(options.min_points) &&
            list.size() >= start + static_cast<std::size_t>(options.min_sites);
   };
+  // A cube of 27 voxels is too small for a line of so many.
+  const auto is_whole = [&](int reach) {
+    return is_enough() && (reach == 1 || !is_line(grid, std::span(list).subspan(start)));
+  };
   const auto add = [&](std::uint32_t j, std::uint32_t n) {
     if (!only.empty() && !only[j]) return;
     if (between && is_before(j) != own_side) return;
     points += n;
     list.push_back(j);
   };
-  for (int reach = 1; reach <= options.max_reach && !is_enough(); ++reach)
+  for (int reach = 1; reach <= options.max_reach && !is_whole(reach - 1); ++reach)
     for (const auto& cell : cube.find_near(i, reach, reach > 1 ? reach - 1 : -1)) {
       add(cell.site, cell.points);
       if (cell.twin < 0) continue;

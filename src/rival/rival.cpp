@@ -3,6 +3,7 @@
 #include "rival.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scanworld::rival {
 
@@ -36,6 +37,14 @@ Clustering part_rough(const Grid& grid, const Neighbors& neighbors, Clustering c
   return c;
 }
 
+// How far the neighbourhoods of what is left may reach: as far as points are sparse, so less where
+// voxels are larger than that because of noise.
+int reach_of_births(const Scale& scale, const RivalOptions& options) {
+  const double sparse = options.scale.voxel_per_spacing * scale.spacing / scale.voxel;
+  const int reach = static_cast<int>(std::lround(options.birth_reach * std::min(1.0, sparse)));
+  return std::min(options.birth_reach, std::max(options.neighbors.max_reach + 1, reach));
+}
+
 }  // namespace
 
 Flatness find_flatness(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
@@ -53,7 +62,7 @@ Clustering settle(const Grid& grid, const Neighbors& neighbors, const Scale& sca
   c = merge_clusters(grid, neighbors, scale, std::move(c), options.merge);
   tell(observe, "neighbours with one plane are united", c);
   NeighborOptions wider = options.neighbors;
-  wider.max_reach = options.birth_reach;
+  wider.max_reach = reach_of_births(scale, options);
   std::vector<std::uint8_t> left(grid.sites.size());
   for (int round = 0; round < options.birth_rounds; ++round) {
     for (std::size_t i = 0; i < left.size(); ++i)
@@ -198,6 +207,12 @@ OptionList list_options(RivalOptions& o) {
        "points where the spacing of the scan leads to expect one", 0},
       {"rival.evidence.sparse_points", &o.evidence.sparse_points, "",
        "clusters with so many may be less dense", 0},
+      {"rival.evidence.min_sparse_points", &o.evidence.min_sparse_points, "",
+       "and those with so many", 0},
+      {"rival.evidence.min_purity", &o.evidence.min_purity, "",
+       "if they hold so much of what is around them", 0, 1},
+      {"rival.evidence.max_curvature", &o.evidence.max_curvature, "",
+       "and a quadric explains no more of their variance off the plane", 0, 1},
       {"rival.evidence.explained_share", &o.evidence.explained_share, "",
        "of the points that larger clusters next to them explain as well", 0},
       {"rival.evidence.explained_distance", &o.evidence.explained_distance, "noise",

@@ -35,7 +35,7 @@ struct RivalOptions {
   MergeOptions merge;
   FlatnessOptions flatness;
   int birth_rounds = 1;  // in which clusters are grown from what no cluster explains
-  int birth_reach = 4;   // [voxels] that the neighbourhoods of what is left may reach
+  int birth_reach = 8;   // [voxels] that the neighbourhoods of what is left may reach
   SplitOptions split;
   BridgeOptions bridge;
   EvidenceOptions evidence;
