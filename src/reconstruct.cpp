@@ -272,10 +272,23 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     return is_as_before && !recorder.is_on() ? std::move(clusters)
                                              : grow(watch(recorder, "Growth"));
   });
-  clusters = log.run("Rivalry", "clusters -> clusters", clusters, [&] {
+  const auto settle_all = [&] {
     return settle(grid, neighbors, scale, local, std::move(clusters), options,
                   watch(recorder, "Rivalry"));
+  };
+  clusters = log.run("Rivalry", "clusters -> clusters", clusters, settle_all);
+  scale.flatness = log.run("Finding layers", "clusters -> lengths", clusters, [&] {
+    const Layers layers = find_layers(grid, scale, clusters, options.layers);
+    return allow_drift(scale.flatness, layers, options.layers);
   });
+  result.report.drift = scale.flatness.drift;
+  if (scale.flatness.drift > 0)
+    result.report.warnings.push_back(fmt::format(
+        "surfaces are there more than once, {:.3g} m apart: the registration drifts. What lies in "
+        "layers and is seen from one side is taken for one surface",
+        scale.flatness.drift));
+  clusters = log.run("Rivalry amid drift", "clusters -> clusters", clusters,
+                     [&] { return scale.flatness.drift > 0 ? settle_all() : std::move(clusters); });
   clusters = log.run("Parting and bridging", "clusters -> clusters", clusters, [&] {
     return part(grid, neighbors, scale, local, std::move(clusters), options,
                 watch(recorder, "Parting and bridging"));
@@ -360,7 +373,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 28);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 30);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);

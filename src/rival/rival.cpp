@@ -94,6 +94,8 @@ Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& sc
   c = weigh_evidence(grid, neighbors, scale, std::move(c), options.evidence);
   c = drop_columns(grid, neighbors, scale, std::move(c), options.columns);
   tell(observe, "what is no plane is dropped", c);
+  c = join_layers(grid, scale, std::move(c), options.layers);
+  tell(observe, "layers of one surface are joined", c);
   return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
 }
 
@@ -196,6 +198,20 @@ OptionList list_options(RivalOptions& o) {
        0},
       {"rival.bridge.open_share", &o.bridge.open_share, "",
        "of the shortest links that nothing may cross, at least", 0},
+      {"rival.layers.max_offset", &o.layers.max_offset, "m",
+       "between layers of one surface; 0 = all are surfaces of their own", 0},
+      {"rival.layers.min_offset", &o.layers.min_offset, "voxel",
+       "nearer ones are the heights and depths of what is rough", 0},
+      {"rival.layers.max_angle", &o.layers.max_angle, "rad", "between their normals", 0, 1.5},
+      {"rival.layers.cell", &o.layers.cell, "voxel",
+       "edge of the squares in which two are compared", 0.1},
+      {"rival.layers.min_overlap", &o.layers.min_overlap, "",
+       "share of the lesser layer's squares that the other is in as well", 0, 1},
+      {"rival.layers.room", &o.layers.room, "m", "a side has at least so much room before it", 0},
+      {"rival.layers.min_share", &o.layers.min_share, "",
+       "of the scan's area that is in layers, for its registration to drift", 0, 1},
+      {"rival.layers.bend", &o.layers.bend, "drift",
+       "what a surface may then bend by, and over each metre", 0},
       {"rival.evidence.min_points", &o.evidence.min_points, "",
        "clusters of fewer points are dropped", 0},
       {"rival.evidence.min_area", &o.evidence.min_area, "m2", "and those of less area", 0},

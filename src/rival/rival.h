@@ -13,6 +13,7 @@
 #include "flatness.h"
 #include "growth.h"
 #include "labels.h"
+#include "layers.h"
 #include "local.h"
 #include "merge.h"
 #include "neighbors.h"
@@ -38,6 +39,7 @@ struct RivalOptions {
   int birth_reach = 8;   // [voxels] that the neighbourhoods of what is left may reach
   SplitOptions split;
   BridgeOptions bridge;
+  LayerOptions layers;
   EvidenceOptions evidence;
   ColumnOptions columns;
   RoughOptions rough;

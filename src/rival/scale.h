@@ -32,6 +32,8 @@ struct Flatness {
   };
   std::vector<Sample> samples;       // of rising extent and bend; none for a scan that is flat
   double max_bend = 0, max_sag = 0;  // [m], and a share of the extent: what a single surface may be
+  double drift = 0;  // [m] between the layers of surfaces that the scan shows more than once; 0 =
+                     // there are none
 
   // Beyond the largest extent that was seen it grows in proportion, at most to the double.
   double bend_at(double extent) const;

@@ -12,9 +12,9 @@ namespace scanworld::surface {
 
 namespace {
 
-class Tracer {
+class RasterTracer {
  public:
-  explicit Tracer(const Raster& raster)
+  explicit RasterTracer(const Raster& raster)
       : raster_(raster),
         out_(static_cast<std::size_t>(raster.width + 1) *
              static_cast<std::size_t>(raster.height + 1)) {}
@@ -93,7 +93,9 @@ std::vector<Vec2> straightened(const std::vector<Vec2>& loop, double tolerance) 
 
 }  // namespace
 
-std::vector<std::vector<Vec2>> trace_raster(const Raster& raster) { return Tracer(raster).trace(); }
+std::vector<std::vector<Vec2>> trace_raster(const Raster& raster) {
+  return RasterTracer(raster).trace();
+}
 
 std::vector<Vec2> around(std::vector<Vec2> loop) {
   const auto low = std::min_element(loop.begin(), loop.end(), [](const Vec2& a, const Vec2& b) {
