@@ -283,11 +283,8 @@ class BoxCover {
   std::vector<char> covered_;
 };
 
-}  // namespace
-
-double free_volume(const Solid& solid, const Frame& frame, std::span<const Vec3> points,
-                   const SeenSpace& seen, const SpareSeenOptions& options) {
-  const FacedSolid faced(solid, frame);
+double free_inside(const FacedSolid& faced, std::span<const Vec3> points, const SeenSpace& seen,
+                   const SpareSeenOptions& options) {
   const double width = faced.width();
   if (width < 2 * seen.cell) {
     const PointCells cells(points, seen.cell);
@@ -305,11 +302,18 @@ double free_volume(const Solid& solid, const Frame& frame, std::span<const Vec3>
   return faced.count_deep(seen.in(box), options.depth) * std::pow(seen.cell, 3);
 }
 
+}  // namespace
+
+double free_volume(const Solid& solid, const Frame& frame, std::span<const Vec3> points,
+                   const SeenSpace& seen, const SpareSeenOptions& options) {
+  return free_inside(FacedSolid(solid, frame), points, seen, options);
+}
+
 bool spares_free(const Solid& solid, const Frame& frame, std::span<const Vec3> points,
                  const SeenSpace& seen, const SpareSeenOptions& options) {
-  const double volume = volume_of(mesh_of(Obstacle{.shape = solid}, frame));
-  return free_volume(solid, frame, points, seen, options) <=
-         std::max(options.min_free, options.min_share * volume);
+  const FacedSolid faced(solid, frame);
+  return free_inside(faced, points, seen, options) <=
+         std::max(options.min_free, options.min_share * volume_of(faced.mesh));
 }
 
 std::vector<OrientedBox> cover_by_boxes(std::span<const Vec3> points, const Vec3& up, double cell,
