@@ -34,6 +34,18 @@ constexpr int gathered_bits(std::uint64_t x) {
   return static_cast<int>(x) - (1 << 15);
 }
 
+// The cell with edges of this length [m] that a point is in.
+inline Eigen::Vector3i cell_of(const Vec3& p, double edge) {
+  return (p / edge).array().floor().cast<int>();
+}
+
+constexpr int kFarthestCell = (1 << 15) - 2;  // of those that have a Morton code, a margin aside
+
+// Whether the cell that a point is in has a Morton code.
+inline bool has_code(const Vec3& p, double edge) {
+  return p.cwiseAbs().maxCoeff() < kFarthestCell * edge;
+}
+
 inline std::uint64_t morton_of(const Eigen::Vector3i& cell) {
   return spread_bits(cell.x()) | spread_bits(cell.y()) << 1 | spread_bits(cell.z()) << 2;
 }

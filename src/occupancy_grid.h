@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cell_walk.h"
 #include "types.h"
 
 namespace scanworld {
@@ -60,9 +61,7 @@ struct OccupancyGrid {
   std::vector<Block> blocks;   // by ascending key
 
   // The cell that a point is in.
-  Eigen::Vector3i cell_of(const Vec3& p) const {
-    return (p / options.resolution).array().floor().cast<int>();
-  }
+  Eigen::Vector3i cell_of(const Vec3& p) const { return scanworld::cell_of(p, options.resolution); }
   Cell at(const Eigen::Vector3i& cell) const;
 
   // Of a cell of which something is known: the sum over its hits and misses, kept between the

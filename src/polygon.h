@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "types.h"
@@ -53,6 +54,12 @@ inline Vec2 nearest_on(const Vec2& p, const Vec2& a, const Vec2& b) {
   const double length2 = (b - a).squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
   return a + t * (b - a);
+}
+
+// The square with edges of this length, of all in the plane, that a point is in.
+inline std::pair<int, int> square_of(const Vec2& p, double edge) {
+  const Vec2 at = p / edge;
+  return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
 }
 
 // How far a point is from a segment.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "../parallel.h"
+#include "../polygon.h"
 
 namespace scanworld::rival {
 
@@ -46,7 +47,8 @@ bool is_too_small(const Cluster& cluster, std::size_t sites, const Scale& scale,
 // Whether a cluster has few points for its area.
 bool is_sparse(const Cluster& cluster, const Scale& scale, const EvidenceOptions& options) {
   return cluster.moments.n < options.sparse_points &&
-         cluster.moments.n * scale.spacing * scale.spacing < options.min_density * area_of(cluster.fit);
+         cluster.moments.n * scale.spacing * scale.spacing <
+             options.min_density * area_of(cluster.fit);
 }
 
 // The square of what the points of a cluster are off its plane where it is as flat as the scan's
@@ -168,8 +170,7 @@ double measure_fill(const Grid& grid, const std::vector<std::uint32_t>& sites, c
   std::set<std::pair<int, int>> cells;
   for (std::uint32_t i : sites) {
     at.push_back(frame.to_plane(grid.sites[i].position()));
-    const Vec2 c = at.back() / cell;
-    cells.insert({static_cast<int>(std::floor(c.x())), static_cast<int>(std::floor(c.y()))});
+    cells.insert(square_of(at.back(), cell));
   }
   double smallest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kTurns; ++k) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "../parallel.h"
+#include "../polygon.h"
 #include "../quantile.h"
 
 namespace scanworld::rival {
@@ -23,9 +24,8 @@ std::vector<Window> cut_windows(const Grid& grid, const std::vector<std::uint32_
   const PlaneFrame frame = frame_of(f.plane, f.centroid);
   std::map<std::pair<int, int>, Moments> squares;
   for (std::uint32_t i : sites) {
-    const Vec2 at = frame.to_plane(grid.sites[i].position()) / size;
-    squares[{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))}] +=
-        grid.sites[i].moments();
+    const Site& s = grid.sites[i];
+    squares[square_of(frame.to_plane(s.position()), size)] += s.moments();
   }
   std::vector<Window> windows;
   for (const auto& [at, moments] : squares) {

@@ -7,7 +7,9 @@
 #include <map>
 #include <optional>
 
+#include "../cell_set.h"
 #include "../cell_walk.h"
+#include "../polygon.h"
 #include "../quantile.h"
 #include "join.h"
 
@@ -34,9 +36,7 @@ HeightMap map_heights(const Grid& grid, const std::vector<std::uint32_t>& sites,
   HeightMap heights;
   for (const std::uint32_t i : sites) {
     const Site& s = grid.sites[i];
-    const Vec2 at = frame.to_plane(s.position()) / edge;
-    Heights& h =
-        heights[{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))}];
+    Heights& h = heights[square_of(frame.to_plane(s.position()), edge)];
     h.sum += s.points * over.plane.signed_distance(s.position()), h.points += s.points;
   }
   return heights;
@@ -94,21 +94,19 @@ std::vector<Overlap> find_overlaps(const Grid& grid, const Clustering& c,
 
 // The cells of a scan that hold points.
 struct Cells {
-  double edge;                          // [m]
-  std::vector<std::uint64_t> occupied;  // ascending
+  double edge;  // [m]
+  CellSet occupied;
 
-  std::uint64_t cell_of(const Vec3& p) const {
-    return morton_of((p / edge).array().floor().cast<int>());
-  }
   bool has(const Vec3& p) const {
-    return std::binary_search(occupied.begin(), occupied.end(), cell_of(p));
+    return has_code(p, edge) && occupied.contains(morton_of(cell_of(p, edge)));
   }
 };
 
 Cells find_cells(const Grid& grid) {
   Cells cells{std::max(grid.voxel, kMinCell), {}};
-  for (const Site& s : grid.sites) cells.occupied.push_back(cells.cell_of(s.position()));
-  std::sort(cells.occupied.begin(), cells.occupied.end());
+  for (const Site& s : grid.sites)
+    if (const Vec3 p = s.position(); has_code(p, cells.edge))
+      cells.occupied.insert(morton_of(cell_of(p, cells.edge)));
   return cells;
 }
 
@@ -141,11 +139,13 @@ bool are_sides(const Overlap& overlap, const Grid& grid, const Scale& scale, con
 Layers find_layers(const Grid& grid, const Scale& scale, const Clustering& c,
                    const LayerOptions& options) {
   const std::vector<std::vector<std::uint32_t>> members = members_of(c);
-  const Cells cells = find_cells(grid);
+  const std::vector<Overlap> overlaps = find_overlaps(grid, c, members, options);
   Layers layers;
+  if (overlaps.empty()) return layers;
+  const Cells cells = find_cells(grid);
   std::vector<std::pair<double, double>> offsets;
   double in_pairs = 0, all = 0;
-  for (const Overlap& o : find_overlaps(grid, c, members, options)) {
+  for (const Overlap& o : overlaps) {
     if (are_sides(o, grid, scale, c, members, cells, options.room)) continue;
     layers.pairs.emplace_back(o.larger, o.smaller);
     offsets.emplace_back(std::abs(o.offset), o.area);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "../polygon.h"
 #include "evidence.h"
 #include "join.h"
 
@@ -144,10 +145,7 @@ class RoughTaker {
   double count_beside(const RoughCandidate& candidate) const {
     const Plane& plane = candidate.cluster.fit.plane;
     const PlaneFrame frame = frame_of(plane, candidate.cluster.fit.centroid);
-    const auto cell_of = [&](const Vec3& p) {
-      const Vec2 q = frame.to_plane(p) / cell_;
-      return std::pair{static_cast<int>(std::floor(q.x())), static_cast<int>(std::floor(q.y()))};
-    };
+    const auto cell_of = [&](const Vec3& p) { return square_of(frame.to_plane(p), cell_); };
     std::set<std::pair<int, int>> cells;
     for (std::uint32_t i : candidate.sites) cells.insert(cell_of(grid_.sites[i].position()));
     double before = 0, behind = 0;

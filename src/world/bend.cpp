@@ -8,6 +8,7 @@
 #include <map>
 
 #include "../parallel.h"
+#include "../polygon.h"
 #include "../quantile.h"
 #include "surface_rings.h"
 
@@ -31,8 +32,7 @@ std::vector<Square> means_of(const PlaneFrame& frame, const Plane& plane,
   for (const Vec3& p : points) {
     const Vec2 at = frame.to_plane(p);
     const double off = plane.signed_distance(p);
-    Square& s = sums[{static_cast<int>(std::floor(at.x() / options.square)),
-                      static_cast<int>(std::floor(at.y() / options.square))}];
+    Square& s = sums[square_of(at, options.square)];
     s.n += 1, s.at += at, s.off += off, s.off_square += off * off;
   }
   std::vector<Square> means;

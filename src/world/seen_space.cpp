@@ -16,29 +16,20 @@ namespace scanworld {
 
 namespace {
 
-constexpr int kFarthestCell = (1 << 15) - 2;  // of those that have a Morton code
 constexpr std::size_t kSeenLinesPerPart = 4096;
-
-using SeenCellIndex = Eigen::Vector3i;
-
-bool has_code(const Vec3& p, double cell) { return p.cwiseAbs().maxCoeff() < kFarthestCell * cell; }
-
-SeenCellIndex seen_cell_of(const Vec3& p, double cell) {
-  return (p / cell).array().floor().cast<int>();
-}
 
 CellSet find_occupied(const PointCloud& cloud, double cell) {
   CellSet occupied;
   for (const Vec3f& point : cloud.points)
     if (const Vec3 p = point.cast<double>(); has_code(p, cell))
-      occupied.insert(morton_of(seen_cell_of(p, cell)));
+      occupied.insert(morton_of(cell_of(p, cell)));
   return occupied;
 }
 
 // A way through cells, in units of them.
 struct ClippedWay {
   Vec3 from;
-  SeenCellIndex to;
+  Eigen::Vector3i to;
 };
 
 // The part of a way that is in a box, if any.
@@ -114,7 +105,7 @@ std::vector<SurfacePlace> places_on_surfaces(const World& world, const CellSet& 
       for (double x = box.min().x() + step / 2; x < box.max().x(); x += step) {
         if (!is_inside(rings, {x, y})) continue;
         const Vec3 at = frame.to_space({x, y});
-        if (has_code(at, cell) && occupied.contains(morton_of(seen_cell_of(at, cell))))
+        if (has_code(at, cell) && occupied.contains(morton_of(cell_of(at, cell))))
           places.push_back({at, s.plane.normal});
       }
   }
@@ -136,7 +127,7 @@ CellSet look_between_surfaces(const World& world, const CellSet& occupied, const
     if (a.normal.dot(way) <= least || -b.normal.dot(way) <= least) return;
     const Vec3 from = (a.at + off * a.normal) / cell;
     const Vec3 end = b.at + off * b.normal;
-    const SeenCellIndex to = seen_cell_of(end, cell);
+    const Eigen::Vector3i to = cell_of(end, cell);
     const auto way_inside = clip_way(from, end / cell, where);
     if (!way_inside) return;
     bool is_free = !occupied.contains(morton_of(to));
@@ -152,14 +143,14 @@ CellSet look_between_surfaces(const World& world, const CellSet& occupied, const
 
 }  // namespace
 
-bool SeenSpace::contains(const SeenCellIndex& at) const {
+bool SeenSpace::contains(const Eigen::Vector3i& at) const {
   return at.cwiseAbs().maxCoeff() < kFarthestCell && through.contains(morton_of(at));
 }
 
 std::vector<Vec3> SeenSpace::in(const Box3& box) const {
   std::vector<Vec3> middles;
   if (box.isEmpty()) return middles;
-  const SeenCellIndex low = seen_cell_of(box.min(), cell), high = seen_cell_of(box.max(), cell);
+  const Eigen::Vector3i low = cell_of(box.min(), cell), high = cell_of(box.max(), cell);
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)
       for (int x = low.x(); x <= high.x(); ++x)
