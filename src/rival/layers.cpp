@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "../cell_set.h"
@@ -23,22 +22,31 @@ constexpr double kMost = 0.33;       // share of the sites that have room before
 constexpr double kNoise = 3;         // [noise] a layer's points are no farther from it
 constexpr std::size_t kLooks = 100;  // sites of a cluster from which is looked, about
 
-// What the heights over a plane add up to, in each square of it.
+// What the heights over a plane add up to, in a square of it.
 struct Heights {
+  std::pair<int, int> square;
   double sum = 0, points = 0;
   double mean() const { return sum / points; }
 };
-using HeightMap = std::map<std::pair<int, int>, Heights>;
+using HeightMap = std::vector<Heights>;  // in the order of their squares
 
 HeightMap map_heights(const Grid& grid, const std::vector<std::uint32_t>& sites,
                       const MomentFit& over, double edge) {
   const PlaneFrame frame = frame_of(over.plane, over.centroid);
-  HeightMap heights;
+  HeightMap all, heights;
+  all.reserve(sites.size());
   for (const std::uint32_t i : sites) {
     const Site& s = grid.sites[i];
-    Heights& h = heights[square_of(frame.to_plane(s.position()), edge)];
-    h.sum += s.points * over.plane.signed_distance(s.position()), h.points += s.points;
+    all.push_back({square_of(frame.to_plane(s.position()), edge),
+                   s.points * over.plane.signed_distance(s.position()),
+                   static_cast<double>(s.points)});
   }
+  std::ranges::stable_sort(all, {}, &Heights::square);
+  for (const Heights& h : all)
+    if (!heights.empty() && heights.back().square == h.square)
+      heights.back().sum += h.sum, heights.back().points += h.points;
+    else
+      heights.push_back(h);
   return heights;
 }
 
@@ -52,9 +60,12 @@ struct Overlap {
 
 Overlap compare(const HeightMap& there, const HeightMap& here, double edge) {
   std::vector<double> offsets;
-  for (const auto& [square, h] : here)
-    if (const auto found = there.find(square); found != there.end())
-      offsets.push_back(h.mean() - found->second.mean());
+  auto found = there.begin();
+  for (const Heights& h : here) {
+    while (found != there.end() && found->square < h.square) ++found;
+    if (found != there.end() && found->square == h.square)
+      offsets.push_back(h.mean() - found->mean());
+  }
   if (offsets.empty()) return {};
   const auto count = static_cast<double>(offsets.size());
   return {0, 0, median(std::move(offsets)), count / static_cast<double>(here.size()),

@@ -15,9 +15,11 @@ namespace {
 // without asking which block it is in.
 class VoxelCube {
  public:
-  // `reach`: [voxels] around the block, at most 8.
-  VoxelCube(const Grid& grid, int reach)
+  // `reach`: [voxels] around the block, at most 8. `only`: where not empty, what it does not mark
+  // is not there.
+  VoxelCube(const Grid& grid, int reach, std::span<const std::uint8_t> only)
       : grid_(grid),
+        only_(only),
         pad_(reach),
         width_(8 + 2 * reach),
         layers_(static_cast<std::size_t>(width_)),
@@ -75,18 +77,23 @@ class VoxelCube {
         const std::uint64_t word = block.occupied[static_cast<std::size_t>(z)];
         for (std::uint64_t bits = word & inside; bits != 0; bits &= bits - 1) {
           const int bit = std::countr_zero(bits), x = x0 + (bit & 7), y = y0 + (bit >> 3);
+          const std::uint32_t at = block.site_at(z, bit);
+          const std::int32_t twin = grid_.twin.empty() ? -1 : grid_.twin[at];
+          if (!is_there(at) && (twin < 0 || !is_there(static_cast<std::uint32_t>(twin)))) continue;
           const auto row = static_cast<std::size_t>((z0 + z) * width_ + y);
           layers_[static_cast<std::size_t>(z0 + z)] |= std::uint32_t{1} << y;
           rows_[row] |= std::uint32_t{1} << x;
-          const std::uint32_t at = block.site_at(z, bit);
           cells_[row * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = {
-              at, grid_.sites[at].points, grid_.twin.empty() ? -1 : grid_.twin[at]};
+              at, grid_.sites[at].points, twin};
         }
       }
     }
   }
 
+  bool is_there(std::uint32_t site) const { return only_.empty() || only_[site]; }
+
   const Grid& grid_;
+  const std::span<const std::uint8_t> only_;
   const int pad_, width_;
   std::uint32_t block_ = ~0u;
   std::vector<std::uint32_t> layers_;  // bit y of layer z: whether there are sites in the row
@@ -98,20 +105,21 @@ class VoxelCube {
 // Whether sites lie along one line, as those of a single ring of a lidar do: their points span no
 // plane, however many they are.
 bool is_line(const Grid& grid, std::span<const std::uint32_t> sites) {
-  constexpr double kLeastSpread = 0.05;
-  Vec3 sum = Vec3::Zero();
-  Mat3 products = Mat3::Zero();
-  const Vec3 origin = grid.sites[sites[0]].position();
+  constexpr float kLeastSpread = 0.05f;
+  const Vec3f origin = grid.sites[sites[0]].mean;  // near it floats suffice
+  Vec3f sum = Vec3f::Zero(), squares = Vec3f::Zero(), products = Vec3f::Zero();
   for (const std::uint32_t j : sites) {
-    const Vec3 p = grid.sites[j].position() - origin;
+    const Vec3f p = grid.sites[j].mean - origin;
     sum += p;
-    products += p * p.transpose();
+    squares += p.cwiseProduct(p);
+    products += p.cwiseProduct(Vec3f(p.y(), p.z(), p.x()));
   }
-  const double n = static_cast<double>(sites.size());
-  const Mat3 scatter = products - sum * sum.transpose() / n;
+  const Vec3f mean = sum / static_cast<float>(sites.size());
+  squares -= mean.cwiseProduct(sum);
+  products -= mean.cwiseProduct(Vec3f(sum.y(), sum.z(), sum.x()));
   // Twice the sum of the products of two eigenvalues each.
-  const double square = scatter.trace() * scatter.trace();
-  return square - scatter.squaredNorm() < kLeastSpread * square;
+  const float square = squares.sum() * squares.sum();
+  return square - squares.squaredNorm() - 2 * products.squaredNorm() < kLeastSpread * square;
 }
 
 // Appends the neighbours of site i to a list.
@@ -180,7 +188,7 @@ Neighbors find_neighbors(const Grid& grid, const NeighborOptions& options,
   Neighbors result;
   result.parts.resize(part_count(count, Neighbors::kPart));
   parallel_for(result.parts.size(), [&](std::size_t p) {
-    VoxelCube cube(grid, options.max_reach);
+    VoxelCube cube(grid, options.max_reach, only);
     result.parts[p] =
         make_part(part_of(p, count, Neighbors::kPart), [&](std::size_t i, auto& list) {
           if (only.empty() || only[i]) add_neighbors(grid, i, options, only, cube, list);
@@ -207,7 +215,7 @@ Neighbors update_neighbors(const Grid& grid, const NeighborOptions& options, Nei
     const bool is_same =
         end <= old && std::none_of(changed.begin() + static_cast<long>(begin),
                                    changed.begin() + static_cast<long>(end), is_changed);
-    VoxelCube cube(grid, options.max_reach);
+    VoxelCube cube(grid, options.max_reach, {});
     result.parts[p] = is_same ? std::move(before.parts[p])
                               : make_part({begin, end}, [&](std::size_t i, auto& list) {
                                   if (changed[i])
