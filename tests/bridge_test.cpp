@@ -10,10 +10,10 @@ using namespace scanworld::rival;
 
 namespace {
 
-// Two walls in one plane with a gap between them, the second set back by `step`; in the middle of
-// the gap a wall that crosses, where asked for.
+// Two walls in one plane with a gap between them, the second set back by `step` and turned by
+// `slope`; in the middle of the gap a wall that crosses, where asked for.
 struct Scene {
-  double gap = 0.2, step = 0;
+  double gap = 0.2, step = 0, slope = 0;
   bool crossing = false;
   double crossing_height = 2;
 };
@@ -22,21 +22,33 @@ Stages gap_stages(const Scene& scene) {
   PointCloud cloud;
   Random random(1);
   add_rectangle(cloud, {-1.5 - scene.gap / 2, 0, 0}, {1.5, 0, 0}, {0, 0, 2}, 0.02, 0.004, random);
-  add_rectangle(cloud, {scene.gap / 2, scene.step, 0}, {1.5, 0, 0}, {0, 0, 2}, 0.02, 0.004, random);
+  add_rectangle(cloud, {scene.gap / 2, scene.step, 0}, {1.5, 1.5 * scene.slope, 0}, {0, 0, 2}, 0.02,
+                0.004, random);
   if (scene.crossing)
     add_rectangle(cloud, {0, -1, 0}, {0, 2, 0}, {0, 0, scene.crossing_height}, 0.02, 0.004, random);
   return run_stages(std::move(cloud), known_scale(0.004, 0.02));
 }
 
-std::size_t bridged(const Scene& scene, const BridgeOptions& options = {}) {
-  const Stages s = gap_stages(scene);
-  const Clustering start = label_sites(s.grid, [&](const Vec3& p) {
-    return std::abs(p.x()) < scene.gap / 2 - 0.03 ? 2 : p.x() < 0 ? 0 : 1;
+Clustering walls_of(const Stages& s, const Scene& scene) {
+  return label_sites(s.grid, [&](const Vec3& p) {
+    return std::abs(p.x()) < std::max(scene.gap / 2 - 0.03, 0.02) ? 2 : p.x() < 0 ? 0 : 1;
   });
-  const Clustering c = bridge_clusters(s.grid, s.scale, start, options);
+}
+
+std::size_t count_clusters(const Stages& s, const Clustering& c) {
   check_clustering(s.grid, c);
   for (std::size_t i = 0; i < c.label.size(); ++i) CHECK((c.label[i] == kNone) == false);
   return c.clusters.size();
+}
+
+std::size_t bridged(const Scene& scene, const BridgeOptions& options = {}) {
+  const Stages s = gap_stages(scene);
+  return count_clusters(s, bridge_clusters(s.grid, s.scale, walls_of(s, scene), options));
+}
+
+std::size_t joined(const Scene& scene, const BridgeOptions& options = {}) {
+  const Stages s = gap_stages(scene);
+  return count_clusters(s, bridge_pieces(s.grid, walls_of(s, scene), options));
 }
 
 }  // namespace
@@ -72,4 +84,24 @@ TEST_CASE("many pieces in a row become one") {
   const Clustering c = bridge_clusters(s.grid, s.scale, label_sites(s.grid, piece));
   check_clustering(s.grid, c);
   CHECK(c.clusters.size() == 1);
+}
+
+TEST_CASE("pieces that go on into each other are one, though no plane in common serves both") {
+  const Scene bent{.gap = 0.3, .slope = 0.03};
+  CHECK(bridged(bent) == 2);
+  CHECK(joined(bent) == 1);
+  CHECK(joined({.gap = 0.45}) == 1);
+}
+
+TEST_CASE("pieces with a step, at an angle or far apart stay two") {
+  CHECK(joined({.gap = 0.3, .step = 0.01}) == 2);
+  CHECK(joined({.gap = 0.3, .step = 0.01}, {.max_step = 0.02}) == 1);
+  CHECK(joined({.gap = 0.3, .slope = 0.06}) == 2);
+  CHECK(joined({.gap = 0.6}) == 2);
+}
+
+TEST_CASE("a wall that crosses between pieces keeps them two, even where they nearly touch") {
+  CHECK(joined({.gap = 0.4, .crossing = true}) == 3);
+  CHECK(joined({.gap = 0.08, .crossing = true}) == 3);
+  CHECK(joined({.gap = 0.4, .crossing = true, .crossing_height = 0.7}) == 2);
 }

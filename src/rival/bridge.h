@@ -9,15 +9,23 @@
 namespace scanworld::rival {
 
 struct BridgeOptions {
-  int max_gap = 8;          // [voxels] at most 8
-  int reach = 3;            // [voxels] in which a crossing cluster must be there
-  double max_rms = 1.35;    // [noise] of each part about the plane in common
-  double open_share = 0.5;  // of the shortest links that nothing may cross, at least
+  double max_gap = 8;       // [voxels] between two clusters with a plane in common
+  double max_rms = 1.35;    // [noise] of each about that plane
+  double open_share = 0.5;  // of the shortest ways across a gap that nothing may cross, at least
+
+  double piece_gap = 0.5;    // [m] between two pieces of one surface
+  double max_step = 0.006;   // [m] from one to the other in the midst of the gap
+  double max_angle = 0.035;  // [rad] between them
 };
 
-// Unites coplanar clusters across a gap that no other cluster's plane goes through: a wall that is
+// Unites clusters with one plane across a gap that no other cluster goes through: a wall that is
 // sparse or hidden in places is one wall.
 Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering clustering,
                            const BridgeOptions& options = {});
+
+// Unites clusters that are known to be surfaces across wider gaps. What decides is whether they go
+// on into each other without a step: surfaces bend, and to those far apart no plane is common.
+Clustering bridge_pieces(const Grid& grid, Clustering clustering,
+                         const BridgeOptions& options = {});
 
 }  // namespace scanworld::rival

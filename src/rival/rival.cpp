@@ -96,6 +96,8 @@ Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& sc
   tell(observe, "what is no plane is dropped", c);
   c = join_layers(grid, scale, std::move(c), options.layers);
   tell(observe, "layers of one surface are joined", c);
+  c = bridge_pieces(grid, std::move(c), options.bridge);
+  tell(observe, "pieces of one surface are joined", c);
   return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
 }
 
@@ -191,13 +193,16 @@ OptionList list_options(RivalOptions& o) {
       {"rival.split.min_points", &o.split.min_points, "",
        "parts of fewer points are left to whoever competes for them", 0},
       {"rival.bridge.max_gap", &o.bridge.max_gap, "voxel",
-       "coplanar clusters are united across no more", 0, 8},
-      {"rival.bridge.reach", &o.bridge.reach, "voxel", "in which a crossing cluster must be there",
-       1, 8},
+       "clusters with a plane in common are united across no more", 0},
       {"rival.bridge.max_rms", &o.bridge.max_rms, "noise", "of each part about the plane in common",
        0},
       {"rival.bridge.open_share", &o.bridge.open_share, "",
-       "of the shortest links that nothing may cross, at least", 0},
+       "of the shortest ways across a gap that nothing may cross, at least", 0, 1},
+      {"rival.bridge.piece_gap", &o.bridge.piece_gap, "m",
+       "between two pieces of one surface; 0 = each is one of its own", 0},
+      {"rival.bridge.max_step", &o.bridge.max_step, "m",
+       "from one to the other in the midst of the gap", 0},
+      {"rival.bridge.max_angle", &o.bridge.max_angle, "rad", "between them", 0, 0.5},
       {"rival.layers.max_offset", &o.layers.max_offset, "m",
        "between layers of one surface; 0 = all are surfaces of their own", 0},
       {"rival.layers.min_offset", &o.layers.min_offset, "voxel",
