@@ -16,6 +16,7 @@ struct Scene {
   double gap = 0.2, step = 0, slope = 0;
   bool crossing = false;
   double crossing_height = 2;
+  double screen = 0;  // [m] from the wall to what stands before the gap; 0 = nothing does
 };
 
 Stages gap_stages(const Scene& scene) {
@@ -26,11 +27,14 @@ Stages gap_stages(const Scene& scene) {
                 0.004, random);
   if (scene.crossing)
     add_rectangle(cloud, {0, -1, 0}, {0, 2, 0}, {0, 0, scene.crossing_height}, 0.02, 0.004, random);
+  if (scene.screen > 0)
+    add_rectangle(cloud, {-0.3, -scene.screen, 0}, {0.6, 0, 0}, {0, 0, 2}, 0.02, 0.004, random);
   return run_stages(std::move(cloud), known_scale(0.004, 0.02));
 }
 
 Clustering walls_of(const Stages& s, const Scene& scene) {
   return label_sites(s.grid, [&](const Vec3& p) {
+    if (scene.screen > 0 && std::abs(p.y() + scene.screen) < 0.05) return scene.crossing ? 3 : 2;
     return std::abs(p.x()) < std::max(scene.gap / 2 - 0.03, 0.02) ? 2 : p.x() < 0 ? 0 : 1;
   });
 }
@@ -46,9 +50,11 @@ std::size_t bridged(const Scene& scene, const BridgeOptions& options = {}) {
   return count_clusters(s, bridge_clusters(s.grid, s.scale, walls_of(s, scene), options));
 }
 
-std::size_t joined(const Scene& scene, const BridgeOptions& options = {}) {
+// Of the walls, not of what stands before them.
+std::size_t joined(Scene scene, const BridgeOptions& options = {}, double screen = 0.5) {
+  scene.screen = screen;
   const Stages s = gap_stages(scene);
-  return count_clusters(s, bridge_pieces(s.grid, walls_of(s, scene), options));
+  return count_clusters(s, bridge_pieces(s.grid, walls_of(s, scene), options)) - (screen > 0);
 }
 
 }  // namespace
@@ -90,7 +96,7 @@ TEST_CASE("pieces that go on into each other are one, though no plane in common 
   const Scene bent{.gap = 0.3, .slope = 0.03};
   CHECK(bridged(bent) == 2);
   CHECK(joined(bent) == 1);
-  CHECK(joined({.gap = 0.45}) == 1);
+  CHECK(joined({.gap = 0.38}) == 1);
 }
 
 TEST_CASE("pieces with a step, at an angle or far apart stay two") {
@@ -100,8 +106,13 @@ TEST_CASE("pieces with a step, at an angle or far apart stay two") {
   CHECK(joined({.gap = 0.6}) == 2);
 }
 
+TEST_CASE("pieces with a gap that nothing hides stay two, as those of a fence do") {
+  CHECK(joined({.gap = 0.3}, {}, 0) == 2);
+  CHECK(joined({.gap = 0.3}, {}, 1.5) == 2);
+}
+
 TEST_CASE("a wall that crosses between pieces keeps them two, even where they nearly touch") {
-  CHECK(joined({.gap = 0.4, .crossing = true}) == 3);
+  CHECK(joined({.gap = 0.3, .crossing = true}) == 3);
   CHECK(joined({.gap = 0.08, .crossing = true}) == 3);
-  CHECK(joined({.gap = 0.4, .crossing = true, .crossing_height = 0.7}) == 2);
+  CHECK(joined({.gap = 0.3, .crossing = true, .crossing_height = 0.7}) == 2);
 }

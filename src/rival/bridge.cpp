@@ -22,6 +22,8 @@ constexpr std::size_t kMostEnds = 400;   // sites of a cluster that ways to anot
 constexpr double kNearlyShortest = 1.5;  // times the shortest way: those that tell what is between
 constexpr double kParting = 0.6;  // by so much more of one cluster than of the other is on one side
                                   // of what goes between them
+constexpr double kHidden = 2;     // [voxels] what is hidden is wider
+constexpr double kHiding = 1;     // [m] from a gap to what hides what is there
 constexpr double kNever = 1e9;    // a price
 
 // The clusters in each cell of a scan.
@@ -29,7 +31,7 @@ class ClusterCells {
  public:
   ClusterCells(const Grid& grid, const Clustering& c) : edge_(3 * grid.voxel) {
     for (std::size_t i = 0; i < grid.sites.size(); ++i)
-      if (const Vec3 p = grid.sites[i].position(); c.label[i] != kNone && has_code(p, edge_))
+      if (const Vec3 p = grid.sites[i].position(); has_code(p, edge_))
         clusters_.emplace_back(morton_of(cell_of(p, edge_)), c.label[i]);
     std::sort(clusters_.begin(), clusters_.end());
     clusters_.erase(std::unique(clusters_.begin(), clusters_.end()), clusters_.end());
@@ -37,7 +39,7 @@ class ClusterCells {
 
   double edge() const { return edge_; }
 
-  // Whether any cluster in the cell of a place is such.
+  // Whether any cluster in the cell of a place, or kNone where sites are in none, is such.
   template <typename IsSuch>
   bool any_at(const Vec3& p, const IsSuch& is_such) const {
     if (!has_code(p, edge_)) return false;
@@ -96,10 +98,12 @@ struct Gap {
 
 class GapFinder {
  public:
-  GapFinder(const Grid& grid, const Clustering& c, double max_gap, double open_share)
+  GapFinder(const Grid& grid, const Clustering& c, double max_gap, double hidden_from,
+            double open_share)
       : grid_(grid),
         c_(c),
         max_gap_(max_gap),
+        hidden_from_(hidden_from),
         open_share_(open_share),
         members_(members_of(c)),
         boxes_(members_.size()),
@@ -144,7 +148,8 @@ class GapFinder {
     const Plane& own = c_.clusters[a].fit.plane;
     std::map<std::int32_t, bool> known;
     const auto parts = [&](std::int32_t l) {
-      if (static_cast<std::size_t>(l) == a || static_cast<std::size_t>(l) == b) return false;
+      if (l == kNone || static_cast<std::size_t>(l) == a || static_cast<std::size_t>(l) == b)
+        return false;
       const auto [at, is_new] = known.try_emplace(l, false);
       if (is_new)
         at->second =
@@ -156,7 +161,9 @@ class GapFinder {
     double open = 0, all = 0;
     for (const Link& link : links) {
       if (link.length() > longest) break;
-      ++all, open += !is_crossed(link, own.normal, parts);
+      ++all;
+      open += !is_crossed(link, own.normal, parts) &&
+              (link.length() <= hidden_from_ || is_hidden(link, own.normal));
     }
     return open >= open_share_ * all;
   }
@@ -165,6 +172,16 @@ class GapFinder {
     const auto before = std::ranges::count_if(
         places, [&](const Vec3f& p) { return plane.signed_distance(p.cast<double>()) > 0; });
     return static_cast<double>(before) / static_cast<double>(places.size());
+  }
+
+  // Whether something is before or behind the middle of a way, which may hide what is there.
+  bool is_hidden(const Link& link, const Vec3& normal) const {
+    const auto is_any = [](std::int32_t) { return true; };
+    const int steps = static_cast<int>(kHiding / cells_.edge());
+    for (int k = 1; k <= steps; ++k)
+      for (const double side : {-1.0, 1.0})
+        if (cells_.any_at(link.middle() + side * k * cells_.edge() * normal, is_any)) return true;
+    return false;
   }
 
   // Whether a cluster that parts two is at the way between them, or close before or behind it.
@@ -181,7 +198,7 @@ class GapFinder {
 
   const Grid& grid_;
   const Clustering& c_;
-  const double max_gap_, open_share_;
+  const double max_gap_, hidden_from_, open_share_;
   const std::vector<std::vector<std::uint32_t>> members_;
   std::vector<Box3> boxes_;  // of their sites
   const ClusterCells cells_;
@@ -207,7 +224,7 @@ Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering c,
     return joint_price(a, b, scale, options.max_rms, Meeting::apart);
   };
   const std::vector<Gap> gaps =
-      GapFinder(grid, c, options.max_gap * grid.voxel, options.open_share).find(price);
+      GapFinder(grid, c, options.max_gap * grid.voxel, INFINITY, options.open_share).find(price);
   return join_across(gaps, grid, std::move(c), price);
 }
 
@@ -221,7 +238,7 @@ Clustering bridge_pieces(const Grid& grid, Clustering c, const BridgeOptions& op
            options.max_step;
   };
   const std::vector<Gap> gaps =
-      GapFinder(grid, c, options.piece_gap, options.open_share).find(price);
+      GapFinder(grid, c, options.piece_gap, kHidden * grid.voxel, options.open_share).find(price);
   return join_across(gaps, grid, std::move(c), price);
 }
 

@@ -13,7 +13,7 @@ struct BridgeOptions {
   double max_rms = 1.35;    // [noise] of each about that plane
   double open_share = 0.5;  // of the shortest ways across a gap that nothing may cross, at least
 
-  double piece_gap = 0.5;    // [m] between two pieces of one surface
+  double piece_gap = 0.4;    // [m] between two pieces of one surface
   double max_step = 0.006;   // [m] from one to the other in the midst of the gap
   double max_angle = 0.035;  // [rad] between them
 };
@@ -23,8 +23,9 @@ struct BridgeOptions {
 Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering clustering,
                            const BridgeOptions& options = {});
 
-// Unites clusters that are known to be surfaces across wider gaps. What decides is whether they go
-// on into each other without a step: surfaces bend, and to those far apart no plane is common.
+// Unites clusters that are known to be surfaces, across gaps that something before or behind may
+// hide. What decides is whether they go on into each other without a step: surfaces bend, and to
+// those far apart no plane is common.
 Clustering bridge_pieces(const Grid& grid, Clustering clustering,
                          const BridgeOptions& options = {});
 
