@@ -22,6 +22,19 @@ Json json_of(const StageReport& s) {
           {"what", s.what}};
 }
 
+Json json_of(const NoiseModel& model) {
+  Json at_range = Json::array();
+  for (const NoiseAtRange& n : model.at_range)
+    at_range.push_back({{"range", {n.min_range, n.max_range}},
+                        {"incidence", {n.min_incidence, n.max_incidence}},
+                        {"noise", n.noise},
+                        {"area", n.area}});
+  return {{"low", model.low},
+          {"middle", model.middle},
+          {"high", model.high},
+          {"at_range", std::move(at_range)}};
+}
+
 Json planes_json(const ReconstructResult& result) {
   Json planes = Json::array();
   for (std::size_t i = 0; i < result.world.surfaces.size(); ++i) {
@@ -57,6 +70,7 @@ Json report_json(const ReconstructResult& result, const Fidelity& fidelity,
           {"scale", report.scale},
           {"spacing", report.spacing},
           {"noise", report.noise},
+          {"noise_model", json_of(report.noise_model)},
           {"flatness", report.flatness},
           {"drift", report.drift},
           {"planes", planes_json(result)},

@@ -141,6 +141,7 @@ struct Found {
   std::vector<FoundSurface> surfaces;
   surface::Surroundings around;
   std::vector<Curve> curves;
+  NoiseMap noise = {};
 };
 
 // The lines of sight to what is around.
@@ -304,6 +305,11 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   clusters = log.run("Regularising", "clusters -> clusters", clusters,
                      [&] { return regularise(scale, std::move(clusters), options.regularise); });
   local = {};
+  scale.local = log.run("Mapping noise", "clusters -> places", clusters, [&] {
+    const std::vector<NoiseSample> samples = sample_noise(grid, clusters);
+    result.report.noise_model = describe_noise(samples, cloud.viewpoints);
+    return map_noise(grid, scale, samples);
+  });
   LabelledPoints labelled = log.run("Labelling points", "points -> planes", cloud, [&] {
     return label_points(cloud, grid, neighbors, scale, clusters, options.labels);
   });
@@ -326,8 +332,10 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     grid = {}, neighbors = {};
     return around;
   };
-  return make_surfaces(cloud, planes, round, voxel, find_around, all.surface, log, result,
-                       recorder);
+  Found found =
+      make_surfaces(cloud, planes, round, voxel, find_around, all.surface, log, result, recorder);
+  found.noise = std::move(scale.local);
+  return found;
 }
 
 // Takes over a mended world: labels and what is told of each surface follow.
@@ -349,9 +357,9 @@ void take(Mended mended, ReconstructResult& result) {
 }
 
 // Adds the solids of what no surface explains.
-void enclose_clutter(const PointCloud& cloud, const ObstacleOptions& options, StageLog& log,
-                     ReconstructResult& result) {
-  const ClutterScale scale{result.report.noise, result.report.spacing};
+void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ObstacleOptions& options,
+                     StageLog& log, ReconstructResult& result) {
+  const ClutterScale scale{result.report.noise, result.report.spacing, std::move(noise)};
   Obstacles obstacles = log.run("Enclosing clutter", "points -> obstacles", cloud, [&] {
     std::vector<std::int32_t> explained = result.labels;
     for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
@@ -373,7 +381,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 30);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 31);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);
@@ -406,13 +414,15 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
     return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints);
   });
   add_curves(found.curves, world);
+  NoiseMap noise = std::move(found.noise);
   found = {};
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
                                               [&] { return pair_faces(world, options.thickness); });
   set_thickness(world, pairs);
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
-  if (options.method == Method::rival) enclose_clutter(cloud, options.obstacles, log, result);
+  if (options.method == Method::rival)
+    enclose_clutter(cloud, std::move(noise), options.obstacles, log, result);
   // A label names a surface; a curve has many.
   for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
     if (result.curve_labels[i] >= 0) result.labels[i] = -1;

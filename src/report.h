@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "noise_map.h"
 #include "progress.h"
 #include "types.h"
 
@@ -32,9 +33,10 @@ struct Report {
   // [m] of the points off their surfaces, as estimated and used; the median of the surfaces' rms
   // where the method uses none.
   double noise = 0;
-  double flatness = 0;  // [m] how far surfaces are off planes of 1 m by themselves, rms
-  double drift = 0;     // [m] between the layers of surfaces that the scan shows more than once
-  double spacing = 0;   // [m] between neighbouring points, where the method looks at it
+  NoiseModel noise_model;  // what it is from place to place
+  double flatness = 0;     // [m] how far surfaces are off planes of 1 m by themselves, rms
+  double drift = 0;        // [m] between the layers of surfaces that the scan shows more than once
+  double spacing = 0;      // [m] between neighbouring points, where the method looks at it
   std::vector<double> plane_noise;  // [m] of each surface's points, where the method tells it
   std::vector<std::string> warnings;
 };

@@ -57,10 +57,14 @@ TEST_CASE("build writes its folder with world, report and exports") {
     CHECK(plane["rms"].get<double>() <= plane["noise"].get<double>());
   }
   for (const char* length : {"scale", "noise", "spacing"}) CHECK(report[length].get<double>() > 0);
+  const Json& noise = report["noise_model"];
+  CHECK(noise["low"].get<double>() > 0);
+  CHECK(noise["low"] < noise["middle"]);
+  CHECK(noise["middle"] < noise["high"]);
   CHECK(report["triangles"] == 12);
   CHECK(report["peak_memory_mb"].get<double>() > 1);
   CHECK(report["world_hash"] == world_hash(read_world(folder / "world")));
-  CHECK(report["stages"].size() == 33);
+  CHECK(report["stages"].size() == 34);
   CHECK(report["complete_seconds"].get<double>() > 0);
 }
 

@@ -19,11 +19,11 @@ namespace {
 // "exporters", "apps" ...
 std::string room_of(const fs::path& file) {
   static const std::set<std::string> ground = {
-      "types",          "error",        "parallel", "progress",      "options",    "files",
-      "report",         "version",      "mix",      "disjoint_sets", "point_sums", "polygon",
-      "mesh_rays",      "segments",     "circle",   "cell_walk",     "cell_set",   "cell_sight",
-      "occupancy_grid", "replay",       "curve",    "quantile",      "text",       "turn",
-      "known_files",    "output_folder"};
+      "types",          "error",       "parallel",     "progress",      "options",    "files",
+      "report",         "version",     "mix",          "disjoint_sets", "point_sums", "polygon",
+      "mesh_rays",      "segments",    "circle",       "cell_walk",     "cell_set",   "cell_sight",
+      "occupancy_grid", "noise_map",   "replay",       "curve",         "quantile",   "text",
+      "turn",           "known_files", "output_folder"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "cluster.h"
+#include "windows.h"
 
 namespace scanworld::rival {
 
 struct FlatnessOptions {
+  WindowOptions windows;
   double smallest = 0.15, largest = 5;  // [m] edges of the squares that surfaces are cut into ...
   double min_voxels = 4;                // ... the smallest at least so many voxels
-  double min_filled = 0.7;              // of a square's edge, as the spread of its points tells it
-  double min_points = 40;               // in a square
   std::size_t min_windows = 8;          // for a size to be believed
   double certain = 1.2;  // times the squared deviation of the smallest squares: less is chance
 };

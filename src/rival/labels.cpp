@@ -40,11 +40,9 @@ void find_candidates(std::size_t i, const Neighbors& neighbors, const Clustering
 
 LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
                             const Scale& scale, const Clustering& c, const LabelOptions& options) {
-  std::vector<double> noise, own_square;  // [m2] how far off its cluster a point may be
-  for (const Cluster& cluster : c.clusters) {
+  std::vector<double> noise;
+  for (const Cluster& cluster : c.clusters)
     noise.push_back(noise_of(cluster, options.min_noise * scale.noise));
-    own_square.push_back(std::pow(options.max_own * noise.back(), 2));
-  }
   const double max_square = options.max_distance * options.max_distance;
   const std::vector<double> bends = square_bends(c, scale);
 
@@ -62,6 +60,7 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
       find_candidates(i, neighbors, c, options.smoothness, votes, near);
       if (near.empty()) continue;
       const double variance = scale.variance_at(grid.sites[i].position());
+      const double local = scale.local.at(grid.sites[i].position());
       for (std::uint32_t point : grid.points_of(i)) {
         const Vec3 p = cloud.points[point].cast<double>();
         double best = std::numeric_limits<double>::max();
@@ -70,7 +69,8 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
           const auto k = static_cast<std::size_t>(a.label);
           const double square = std::pow(c.plane(a.label).signed_distance(p), 2);
           const double expected = variance + bends[k];
-          if (square > std::min(max_square * expected, own_square[k])) continue;
+          const double own = options.max_own * std::max(noise[k], local);
+          if (square > std::min(max_square * expected, own * own)) continue;
           double price = square / expected + a.price;
           // A Gaussian that is wider is lower.
           if (c.clusters[k].roughness > 0) price += std::log(expected / variance);

@@ -20,7 +20,7 @@ struct LabelOptions {
 struct LabelledPlane {
   MomentFit fit;
   double noise = 0;  // [m] standard deviation of the points off it; none is farther than
-                     // LabelOptions::max_own times this
+                     // LabelOptions::max_own times this, or the noise there
 };
 
 struct LabelledPoints {

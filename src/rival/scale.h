@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "../noise_map.h"
 #include "../types.h"
 
 namespace scanworld::rival {
@@ -51,10 +52,12 @@ struct Scale {
   double depth_step = 0;  // [1/m] noise is at least this times the squared distance from `camera`
   Vec3 camera = Vec3::Zero();
   Flatness flatness;
+  NoiseMap local;  // where there is more noise than `noise`
 
   // The noise of points at p [m].
   double noise_at(const Vec3& p) const {
-    return depth_step > 0 ? std::max(noise, depth_step * (p - camera).squaredNorm()) : noise;
+    const double least = std::max(noise, local.at(p));
+    return depth_step > 0 ? std::max(least, depth_step * (p - camera).squaredNorm()) : least;
   }
   double variance_at(const Vec3& p) const { return noise_at(p) * noise_at(p); }
 };

@@ -115,7 +115,7 @@ struct FlatSurface {
   Plane plane;
   PlaneFrame frame;
   geos::Rings rings;
-  double reach;  // [m] points no farther belong to it
+  double reach;  // [m] points no farther belong to it, but for more noise in places
   Box3 box;
 
   // Whether a point is no farther than this.
@@ -152,7 +152,9 @@ std::vector<FlatSurface> flatten(const World& world, const ClutterScale& scale,
 
 // Drops the points that a surface explains.
 void drop_explained(const PointCloud& cloud, const std::vector<FlatSurface>& surfaces,
-                    std::vector<Entry>& entries, std::vector<ClutterCell>& cells) {
+                    const NoiseMap& local, double surface_distance, std::vector<Entry>& entries,
+                    std::vector<ClutterCell>& cells) {
+  const double farthest = surface_distance * local.largest();
   constexpr std::size_t kRun = 64;  // cells that lie close together, mostly
   std::vector<char> explained(entries.size());
   parallel_for(part_count(cells.size(), kRun), [&](std::size_t part) {
@@ -162,11 +164,13 @@ void drop_explained(const PointCloud& cloud, const std::vector<FlatSurface>& sur
       box.extend(cloud.points[entries[i].point].cast<double>());
     std::vector<const FlatSurface*> near;
     for (const FlatSurface& s : surfaces)
-      if (grown(s.box, s.reach).intersects(box)) near.push_back(&s);
+      if (grown(s.box, std::max(s.reach, farthest)).intersects(box)) near.push_back(&s);
     for (std::size_t i = cells[begin].begin; i < cells[end - 1].end; ++i) {
       const Vec3 p = cloud.points[entries[i].point].cast<double>();
-      explained[i] = std::any_of(near.begin(), near.end(),
-                                 [&](const FlatSurface* s) { return s->is_near(p, s->reach); });
+      const double reach = surface_distance * local.at(p);
+      explained[i] = std::any_of(near.begin(), near.end(), [&](const FlatSurface* s) {
+        return s->is_near(p, std::max(s->reach, reach));
+      });
     }
   });
   std::size_t kept = 0;
@@ -246,7 +250,7 @@ Clutter find_clutter(const PointCloud& cloud, const std::vector<std::int32_t>& l
   };
   drop_sparse();
   const std::vector<FlatSurface> surfaces = flatten(world, scale, options);
-  drop_explained(cloud, surfaces, entries, cells);
+  drop_explained(cloud, surfaces, scale.local, options.surface_distance, entries, cells);
   drop_sparse();
   drop_curtains(entries, cells, options.min_own_density);
 

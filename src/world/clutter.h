@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "../noise_map.h"
 #include "world.h"
 
 namespace scanworld {
@@ -13,6 +14,7 @@ namespace scanworld {
 struct ClutterScale {
   double noise = 0.01;    // standard deviation of the points off their surface
   double spacing = 0.02;  // between neighbouring points on a surface
+  NoiseMap local = {};    // where there is more noise
 };
 
 struct ClutterOptions {
