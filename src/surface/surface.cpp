@@ -56,6 +56,9 @@ std::array<Plane, 4> frame_planes(const Patch& patch) {
           plane_through(high, patch.frame.v), plane_through(low, patch.frame.u)};
 }
 
+// Of the least area: what the largest piece of a plane needs, as the plane was told by evidence.
+constexpr double kMainPart = 0.25;
+
 std::vector<CornerPolygon> outline(const Patch& patch, int own, int first_frame,
                                    const std::vector<CutLine>& lines,
                                    const SurfaceOptions& options) {
@@ -74,10 +77,16 @@ std::vector<CornerPolygon> outline(const Patch& patch, int own, int first_frame,
   };
   std::vector<CornerPolygon> polygons;
   std::vector<double> areas;
-  for (const Outline& part : trace_outlines(arrangement, chosen)) {
-    if (part.covered + part.empty < options.min_area || part.loops.empty()) continue;
+  const std::vector<Outline> parts = trace_outlines(arrangement, chosen);
+  const auto less_covered = [](const Outline& a, const Outline& b) {
+    return a.covered < b.covered;
+  };
+  const auto most = std::max_element(parts.begin(), parts.end(), less_covered);
+  for (auto part = parts.begin(); part != parts.end(); ++part) {
+    const double least = part == most ? kMainPart * options.min_area : options.min_area;
+    if (part->covered + part->empty < least || part->loops.empty()) continue;
     CornerPolygon polygon{.patch = own, .loops = {}};
-    for (const Outline::Loop& loop : part.loops) {
+    for (const Outline::Loop& loop : part->loops) {
       std::vector<Corner> corners;
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const int before = plane_of(loop[(k + loop.size() - 1) % loop.size()].line);
@@ -90,7 +99,7 @@ std::vector<CornerPolygon> outline(const Patch& patch, int own, int first_frame,
       polygon.loops.push_back(std::move(corners));
     }
     polygons.push_back(std::move(polygon));
-    areas.push_back(part.covered);
+    areas.push_back(part->covered);
   }
   // The largest comes first.
   if (const auto largest = std::max_element(areas.begin(), areas.end()); largest != areas.end())
@@ -273,7 +282,8 @@ OptionList list_options(SurfaceOptions& o) {
       {"surface.weld.off_plane", &o.weld.off_plane, "m",
        "if that takes corners no farther off the polygons' planes", 0, 0.0009},
       {"surface.weld.min_area", &o.weld.min_area, "m2", "of a loop that is kept", 0},
-      {"surface.min_area", &o.min_area, "m2", "smaller pieces are left out", 0},
+      {"surface.min_area", &o.min_area, "m2",
+       "smaller pieces are left out, but a plane's largest at a quarter", 0},
   };
 }
 

@@ -29,7 +29,7 @@ struct SurfaceOptions {
   ChoiceOptions choice;
   RevealOptions reveals;
   WeldOptions weld;
-  double min_area = 0.02;  // [m2] smaller pieces and holes are left out
+  double min_area = 0.02;  // [m2] smaller pieces are left out, but a plane's largest at a quarter
 };
 
 OptionList list_options(SurfaceOptions& options);
