@@ -10,6 +10,7 @@
 #include "cli.h"
 #include "error.h"
 #include "exporters/export.h"
+#include "facets.h"
 #include "fidelity.h"
 #include "files.h"
 #include "output_folder.h"
@@ -38,7 +39,7 @@ writes office/world.json, report.json, world.obj, world.stl, world.glb and world
 struct BuildRequest {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
-  std::string budget;
+  std::string budget, sagitta;
   std::string method = "rival", preset;  // an empty preset: the one that suits the scan
   std::vector<std::string> assignments, exports = {"obj", "stl", "glb", "bullet"};
   int threads = 0;
@@ -121,9 +122,13 @@ void write_files(const std::filesystem::path& folder, const BuildRequest& reques
                  const std::vector<ExportFormat>& formats, const PointCloud& cloud,
                  const ReconstructResult& result, const std::string& replay) {
   write_world(folder / "world.json", result.world);
-  const World prepared = formats.empty() ? World{} : prepare_export(result.world, {});
+  const ExportOptions options{.sagitta = sagitta_from(request.sagitta)};
+  const World prepared =
+      formats.empty()
+          ? World{}
+          : prepare_export(cut_anew(result.world, options.sagitta, request.console), options);
   for (const ExportFormat& format : formats)
-    format.write(folder / ("world." + format.extension), prepared, {});
+    format.write(folder / ("world." + format.extension), prepared, options);
   if (request.labels) write_labels(folder / "labels.ply", cloud, result.labels);
   if (!replay.empty()) write_text(folder / "replay.json", replay);
 }
@@ -171,6 +176,7 @@ void run(BuildRequest request) {
   // All that can be wrong about the request is found before a large file is read.
   ReconstructOptions options = resolve_options(request);
   const std::vector<ExportFormat> formats = resolve_exports(request);
+  sagitta_from(request.sagitta);
   const double limit = request.budget.empty() ? 0 : seconds_from(request.budget);
   const std::vector<Vec3> poses =
       request.poses.empty() ? std::vector<Vec3>{} : read_poses(request.poses);
@@ -271,6 +277,7 @@ void add_build(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
+  add_sagitta(*verb, request->sagitta);
   verb->add_option("--seed", request->seed,
                    "For methods that draw random numbers (none does so far)")
       ->capture_default_str();

@@ -8,6 +8,7 @@
 
 #include "cli.h"
 #include "error.h"
+#include "facets.h"
 #include "fidelity.h"
 #include "files.h"
 #include "output_folder.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct ExportRequest {
   std::filesystem::path world, out, poses;
-  std::string format, up = "z", color = "scan", budget;
+  std::string format, up = "z", color = "scan", budget, sagitta;
   std::vector<double> origin = {0, 0, 0};
   std::vector<double> band = {ExportOptions{}.band_low, ExportOptions{}.band_high};
   bool all = false;
@@ -40,6 +41,7 @@ void run_on_scan(const ExportRequest& request) {
 
 void run(ExportRequest request) {
   ExportOptions& options = request.options;
+  options.sagitta = sagitta_from(request.sagitta);
   options.y_up = request.up == "y";
   options.color_by_kind = request.color == "kind";
   options.origin = {request.origin[0], request.origin[1], request.origin[2]};
@@ -62,7 +64,7 @@ void run(ExportRequest request) {
     return run_on_scan(request);
   if (!request.poses.empty())
     throw Error(Cause::usage, request.poses.string() + ": --poses goes with a scan, not a world");
-  const World world = read_valid_world(request.world);
+  const World world = cut_anew(read_valid_world(request.world), options.sagitta, request.console);
   if (const double tilt = tilt_of(world.frame) * 180 / M_PI; tilt > 0.5 && !options.level)
     request.console.warn(
         fmt::format("the world is tilted by {:.1f} degrees; --level makes it upright", tilt));
@@ -99,6 +101,7 @@ void add_export(CLI::App& app) {
       ->type_name("OUT");
   verb->add_option("--format", request->format, "Format, where the extension does not tell it");
   verb->add_flag("--all", request->all, "Write every format, and a README how to load each");
+  add_sagitta(*verb, request->sagitta);
   verb->add_option("--friction", options.friction, "Of all solids")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

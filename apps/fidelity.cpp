@@ -129,6 +129,8 @@ Json json_of(const Fidelity& f) {
           {"unexplained", f.unexplained},
           {"close", f.close},
           {"inside", f.inside},
+          {"flat", f.flat},
+          {"doubled", json_of(f.doubled)},
           {"free_space_violations", json_of(f.free_space_violations)},
           {"leaks", json_of(f.leaks)},
           {"misplaced", f.misplaced},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "parts.h"
@@ -59,6 +60,32 @@ ConvexPrism thickened(ConvexPrism prism, const Vec3& normal, double thickness) {
   return prism;
 }
 
+// A pipe lies as it does, however the world had to hold it.
+std::optional<Placed> placed_pipe(const Curve& curve) {
+  const RoundShape& s = curve.shape;
+  if (s.type != CurveType::cylinder) return std::nullopt;
+  return Placed{s.point + (curve.low + curve.high) / 2 * s.axis,
+                turn_between(Vec3::UnitZ(), s.axis),
+                CylinderShape{s.radius, curve.high - curve.low}};
+}
+
+constexpr double kWholeCone = 0.02;  // [radius] that the tip of one is wide
+
+// The hull of a ball, or of a cone that has its tip, in the axes of what it is.
+std::optional<RoundBody> round_body(const Curve& curve, Placed& solid) {
+  const RoundShape& s = curve.shape;
+  auto* hull = std::get_if<ConvexShape>(&solid.shape);
+  const double wide = s.radius_at(curve.high), height = curve.high - curve.low;
+  const bool is_cone = s.type == CurveType::cone && s.radius_at(curve.low) < kWholeCone * wide;
+  if (!hull || !(is_cone || s.type == CurveType::sphere)) return std::nullopt;
+  const Vec3 middle = is_cone ? Vec3(s.point + (curve.low + curve.high) / 2 * s.axis) : s.point;
+  const Eigen::Quaterniond turn =
+      is_cone ? turn_between(Vec3::UnitZ(), -s.axis) : Eigen::Quaterniond::Identity();
+  for (Vec3& v : hull->mesh.vertices) v = turn.conjugate() * (v + solid.position - middle);
+  solid.position = middle, solid.rotation = turn;
+  return RoundBody{s.type, is_cone ? wide : s.radius, is_cone ? height : 2 * s.radius};
+}
+
 }  // namespace
 
 std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& options) {
@@ -69,6 +96,17 @@ std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& o
   const auto add = [&](const std::string& name, bool is_obstacle, Color color, Placed solid) {
     bodies.push_back({name, is_obstacle, color, solid.position, solid.rotation.normalized(),
                       std::move(solid.shape)});
+  };
+  const auto add_hull = [&](const std::string& name, const Obstacle& o) {
+    const auto part = std::find_if(world.curves.begin(), world.curves.end(),
+                                   [&](const CurvedPart& c) { return o.curve == c.id; });
+    const Color color = color_of(Kind::other);
+    if (part == world.curves.end()) return add(name, true, color, placed(mesh_of(o, world.frame)));
+    if (const auto pipe = placed_pipe(part->curve)) return add(name, true, color, *pipe);
+    Placed solid = placed(mesh_of(o, world.frame));
+    const std::optional<RoundBody> round = round_body(part->curve, solid);
+    add(name, true, color, std::move(solid));
+    bodies.back().round = round;
   };
   std::map<int, int> count;  // of the colliders that a surface has so far
   for (const Collider& c : world.colliders) {
@@ -90,7 +128,7 @@ std::vector<ExportBody> export_bodies(const World& world, const ExportOptions& o
     else if (const auto* cylinder = std::get_if<Cylinder>(&o.shape))
       add(name, true, color_of(Kind::other), placed(*cylinder, world.frame.up));
     else
-      add(name, true, color_of(Kind::other), placed(mesh_of(o, world.frame)));
+      add_hull(name, o);
   }
   return bodies;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,6 +23,12 @@ struct ConvexShape {
   Mesh mesh;  // closed, its vertices those of the hull alone
 };
 
+// What a convex shape is exactly, for formats that have balls and cones.
+struct RoundBody {
+  CurveType type;         // sphere, or cone with its tip up along z; cylinders are shapes
+  double radius, height;  // [m] height: of a cone, from -height/2 to height/2
+};
+
 // A solid that does not move, as physics engines want it.
 struct ExportBody {
   std::string name;  // "wall_12_solid_0", "obstacle_3": unique, the same between runs and formats
@@ -30,7 +37,12 @@ struct ExportBody {
   Vec3 position;
   Eigen::Quaterniond rotation;  // from its axes to the world's
   std::variant<BoxShape, CylinderShape, ConvexShape> shape;
+  std::optional<RoundBody> round = {};
 };
+
+inline bool is_ball(const ExportBody& body) {
+  return body.round && body.round->type == CurveType::sphere;
+}
 
 // All colliders in the order of the world, then all obstacles. Colliders thinner than
 // `min_thickness` grow away from the free side of their surface.

@@ -22,6 +22,7 @@ struct ExportBudget {
 ExportBudget budget_from(const std::string& text);
 
 struct ExportOptions {
+  double sagitta = 0;          // [m] of the sides of cylinders; 0: 24 sides
   double friction = 0.8;       // of all solids (Coulomb); rubber on a dry floor
   double min_thickness = 0;    // [m] thinner solids grow away from the free side
   Vec3 origin = Vec3::Zero();  // [m] the point of the world that is to be the file's origin

@@ -15,7 +15,7 @@ void write_mesh_folder(const std::filesystem::path& folder, const World& world,
   OutputFolder output(folder, kVisualMesh);
   write_obj(output.path() / kVisualMesh, world, options);
   for (const ExportBody& body : bodies)
-    if (const auto* convex = std::get_if<ConvexShape>(&body.shape))
+    if (const auto* convex = std::get_if<ConvexShape>(&body.shape); convex && !is_ball(body))
       write_text(output.path() / mesh_file_of(body), obj_text(body.name, convex->mesh));
   output.commit();
 }

@@ -68,6 +68,8 @@ XmlElement geom_of(const ExportBody& body, XmlElement& assets) {
     set("box", "size", text_of(Vec3(box->size / 2)));
   } else if (const auto* cylinder = std::get_if<CylinderShape>(&body.shape)) {
     set("cylinder", "size", text_of(cylinder->radius) + " " + text_of(cylinder->height / 2));
+  } else if (is_ball(body)) {
+    set("sphere", "size", text_of(body.round->radius));
   } else {
     set("mesh", "mesh", body.name);
     assets.add(mesh_asset(body.name, std::get<ConvexShape>(body.shape).mesh, false));

@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "world/round_solids.h"
 #include "world/solids.h"
 #include "world/triangulate.h"
 
@@ -19,6 +20,13 @@ std::vector<ExportPart> merged(const std::vector<ExportPart>& parts) {
   all.name = "world";
   for (auto part = parts.begin() + 1; part != parts.end(); ++part) append(all.mesh, part->mesh);
   return {all};
+}
+
+// A cylinder's sides by the sagitta; all else has the facets that it has.
+Mesh facets_of(const Obstacle& o, const Frame& frame, double sagitta) {
+  if (const auto* cylinder = std::get_if<Cylinder>(&o.shape); cylinder && sagitta > 0)
+    return mesh_of(*cylinder, frame.up, sides_of(cylinder->radius, sagitta));
+  return mesh_of(o, frame);
 }
 
 }  // namespace
@@ -74,8 +82,8 @@ std::vector<ExportPart> export_parts(const World& world, const ExportOptions& op
     mesh.triangles.push_back(triangle);
   }
   for (const Obstacle& o : world.obstacles)
-    parts.push_back(
-        {name_of(o), o.id, false, Kind::other, color_of(Kind::other), mesh_of(o, world.frame)});
+    parts.push_back({name_of(o), o.id, false, Kind::other, color_of(Kind::other),
+                     facets_of(o, world.frame, options.sagitta)});
   return options.merge ? merged(parts) : parts;
 }
 

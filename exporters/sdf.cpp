@@ -27,6 +27,8 @@ XmlElement shape_of(const ExportBody& body, const std::string& model) {
             {text_element("radius", text_of(cylinder->radius)),
              text_element("length", text_of(cylinder->height))},
             ""};
+  if (is_ball(body))
+    return {"sphere", {}, {text_element("radius", text_of(body.round->radius))}, ""};
   return mesh_element(model, mesh_file_of(body));
 }
 

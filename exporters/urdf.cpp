@@ -27,6 +27,8 @@ XmlElement geometry_of(const ExportBody& body, const std::string& folder) {
               {},
               ""}},
             ""};
+  if (is_ball(body))
+    return {"geometry", {}, {{"sphere", {{"radius", text_of(body.round->radius)}}, {}, ""}}, ""};
   return mesh_element(folder + "/" + mesh_file_of(body));
 }
 

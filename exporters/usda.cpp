@@ -101,6 +101,17 @@ void write_body(Writer& out, const ExportBody& body) {
     out.line("double height = " + text_of(cylinder->height));
     out.line("double radius = " + text_of(cylinder->radius));
     out.place(body, Vec3::Ones());
+  } else if (body.round) {
+    const auto& [type, radius, height] = *body.round;
+    const Vec3 half(radius, radius, height / 2);
+    out.open(type == CurveType::sphere ? "Sphere" : "Cone", body.name, kCollision);
+    out.line(fmt::format("float3[] extent = [{}, {}]", tuple(-half), tuple(half)));
+    out.line("double radius = " + text_of(radius));
+    if (type == CurveType::cone) {
+      out.line("uniform token axis = \"Z\"");
+      out.line("double height = " + text_of(height));
+    }
+    out.place(body, Vec3::Ones());
   } else {
     out.open("Mesh", body.name,
              "prepend apiSchemas = [\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"]");

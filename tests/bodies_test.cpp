@@ -7,6 +7,7 @@
 #include "support/engines.h"
 #include "support/scenes.h"
 #include "world/colliders.h"
+#include "world/round_solids.h"
 #include "world/solids.h"
 #include "world/world_json.h"
 
@@ -112,4 +113,40 @@ TEST_CASE("numbers have no minus before zero, and nine digits") {
   CHECK(text_of(-0.0) == "0");
   CHECK(text_of(Vec3(1, -0.0, 1.0 / 3)) == "1 0 0.333333333");
   CHECK(text_of(512345.678912) == "512345.679");
+}
+
+TEST_CASE("slanted pipes are cylinders, balls and whole cones are told beside their hulls") {
+  World world;
+  const Vec3 axis = Vec3(1, 2, 0.5).normalized();
+  const Vec3 across = frame_of({axis, 0}).u;
+  const auto add = [&](const Curve& curve) {
+    const int id = static_cast<int>(world.curves.size());
+    world.curves.push_back({id, curve});
+    world.obstacles.push_back({.id = id, .shape = solid_of(curve, world.frame.up), .curve = id});
+  };
+  add({{CurveType::cylinder, {1, 2, 3}, axis, 0.2}, -1, 2, across});
+  add({{CurveType::sphere, {4, 0, 2}, Vec3::UnitZ(), 1.5}, -1.4, 1.4});
+  add({{CurveType::cone, {0, 5, 1}, axis, 0, 0.3}, 0, 1.2, across});
+  add({{CurveType::cone, {0, 9, 1}, axis, 0, 0.3}, 0.6, 1.2, across});  // without its tip
+  const std::vector<ExportBody> bodies = export_bodies(world, {});
+  REQUIRE(bodies.size() == 4);
+  const auto& pipe = std::get<CylinderShape>(bodies[0].shape);
+  CHECK(pipe.radius == 0.2);
+  CHECK(pipe.height == 3);
+  CHECK((bodies[0].rotation * Vec3::UnitZ() - axis).norm() < 1e-9);
+  CHECK((bodies[0].position - Vec3(1, 2, 3) - axis / 2).norm() < 1e-9);
+  REQUIRE(is_ball(bodies[1]));
+  CHECK(bodies[1].round->radius == 1.5);
+  CHECK((bodies[1].position - Vec3(4, 0, 2)).norm() < 1e-9);
+  REQUIRE(bodies[2].round);
+  CHECK(bodies[2].round->type == CurveType::cone);
+  CHECK(bodies[2].round->height == doctest::Approx(1.2));
+  // The tip is up along z, and the hull is where it was.
+  const Vec3 tip = bodies[2].position + bodies[2].rotation * Vec3(0, 0, 0.6);
+  CHECK((tip - Vec3(0, 5, 1)).norm() < 1e-9);
+  CHECK_FALSE(bodies[3].round);
+  for (const ExportBody& body : bodies)
+    for (const Vec3& v : mesh_of(body).vertices)
+      CHECK(std::abs(world.curves[static_cast<std::size_t>(&body - bodies.data())]
+                         .curve.shape.signed_distance(v)) < 1e-6);
 }

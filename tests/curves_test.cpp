@@ -174,6 +174,64 @@ TEST_CASE("rooms, pillars, corners and edges are not round, however noisy") {
   }
 }
 
+TEST_CASE(
+    "a tapered column, a funnel and a conical roof are cones with their apex and half angle") {
+  struct Sample {
+    Vec3 foot, axis;
+    double radius, slope, sweep;
+  };
+  const Sample samples[] = {
+      {{2.2, 1.9, 0}, {0, 0, 2.8}, 0.5, 0.05, 2 * M_PI},
+      {{2.2, 1.9, 0.4}, {0, 0, 1.2}, 0.8, 0.5, M_PI},
+      {{2.2, 1.9, 2.6}, {0, 0, 2}, 2.5, 0.8, 2 * M_PI},
+  };
+  Random random(9);
+  for (const Sample& s : samples) {
+    CAPTURE(s.slope);
+    PointCloud cloud;
+    add_rectangle(cloud, {-1, -1, 0}, {6, 0, 0}, {0, 6, 0}, 0.02, kCurveNoise, random);
+    add_round(cloud, s.foot, s.axis, s.radius, s.sweep, 0.015, kCurveNoise, random, s.slope);
+    const Curves found = curves_of(std::move(cloud));
+    // The rim of a wide roof may be taken for a part of a sphere.
+    REQUIRE(!found.curves.empty());
+    REQUIRE(found.curves.size() <= (s.slope < 0.7 ? 1 : 2));
+    const Curve& c = *std::ranges::max_element(
+        found.curves, {}, [](const Curve& curve) { return curve.support.points; });
+    CHECK(c.shape.type == CurveType::cone);
+    CHECK(c.shape.radius == 0);
+    CHECK(c.shape.half_angle == doctest::Approx(s.slope).epsilon(0.05));
+    const Vec3 apex = s.foot + s.axis.normalized() * (s.radius / std::tan(s.slope));
+    CHECK((c.shape.point - apex).norm() < 0.05 * s.radius / std::tan(s.slope));
+    CHECK(angle_between(c.shape.axis, s.axis) < 0.02);
+    CHECK(c.support.rms < 1.3 * kCurveNoise);
+    CHECK(c.low >= 0);
+  }
+}
+
+TEST_CASE("cylinders, discs and pyramids are no cones") {
+  Random random(10);
+  PointCloud cloud;
+  add_rectangle(cloud, {-1, -1, 0}, {6, 0, 0}, {0, 6, 0}, 0.02, kCurveNoise, random);
+  add_round(cloud, {1, 1, 0}, {0, 0, 2.5}, 0.3, M_PI, 0.015, kCurveNoise, random);
+  for (int i = 0; i < 15000; ++i) {  // a disc, a little tilted
+    const double r = 0.8 * std::sqrt(random.uniform()), a = random.uniform(0, 2 * M_PI);
+    const Vec3 p(3 + r * std::cos(a), 3 + r * std::sin(a), 1 + 0.1 * r * std::cos(a));
+    cloud.points.push_back((p + Vec3(0, 0, kCurveNoise * random.gauss())).cast<float>());
+  }
+  for (int side = 0; side < 4; ++side) {  // a pyramid
+    const double a = side * M_PI / 2, b = a + M_PI / 2;
+    const Vec3 from(std::cos(a), std::sin(a), 0), to(std::cos(b), std::sin(b), 0);
+    for (int i = 0; i < 8000; ++i) {
+      double u = random.uniform(), v = random.uniform();
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3 p = Vec3(1, 4, 0) + u * from + v * to + (1 - u - v) * Vec3(0, 0, 1.5);
+      cloud.points.push_back((p + kCurveNoise * random.gauss() * Vec3::UnitZ()).cast<float>());
+    }
+  }
+  for (const Curve& c : curves_of(std::move(cloud)).curves)
+    CHECK(c.shape.type == CurveType::cylinder);
+}
+
 TEST_CASE("a bowed wall is a wall") {
   for (double bow : {0.0, 0.02, 0.05, 0.1}) {
     CAPTURE(bow);

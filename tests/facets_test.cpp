@@ -16,6 +16,8 @@ Curve curve(CurveType type, double radius, double sweep) {
   Curve c;
   c.shape = {type, {1, 2, 3}, Vec3::UnitY(), radius};
   c.low = type == CurveType::sphere ? 0 : -1, c.high = type == CurveType::sphere ? radius : 2;
+  if (type == CurveType::cone) c.shape.radius = 0, c.shape.half_angle = std::atan(radius / 2);
+  if (type == CurveType::cone) c.low = 0.1;
   c.start = Vec3::UnitZ(), c.sweep = sweep;
   return c;
 }
@@ -25,7 +27,7 @@ Vec3 point_at(const Curve& c, double height, double angle) {
   const RoundShape& s = c.shape;
   const double h = c.low + height * (c.high - c.low), a = angle * c.sweep;
   const double out =
-      s.type == CurveType::sphere ? std::sqrt(s.radius * s.radius - h * h) : s.radius;
+      s.type == CurveType::sphere ? std::sqrt(s.radius * s.radius - h * h) : s.radius_at(h);
   return s.point + h * s.axis + out * (std::cos(a) * c.start + std::sin(a) * s.axis.cross(c.start));
 }
 
@@ -33,7 +35,7 @@ Vec3 point_at(const Curve& c, double height, double angle) {
 
 TEST_CASE("no point of a curve is farther from its facet than the sagitta asks for") {
   Random random(1);
-  for (CurveType type : {CurveType::cylinder, CurveType::sphere})
+  for (CurveType type : {CurveType::cylinder, CurveType::sphere, CurveType::cone})
     for (double radius : {0.3, 2.0, 5.0})
       for (double sweep : {1.0, M_PI, 2 * M_PI}) {
         CAPTURE(radius);

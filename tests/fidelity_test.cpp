@@ -362,7 +362,7 @@ TEST_CASE("a floor in steps, with gaps or a floating piece is not faithful") {
     for (Surface& s : world.surfaces) s.kind = Kind::floor;
     return measure_fidelity(world, cloud_of(points), {.noise = 0.002});
   };
-  CHECK(judged({level_rectangle(0, 0, 4, 4, 0)}).criteria.size() == 13);
+  CHECK(judged({level_rectangle(0, 0, 4, 4, 0)}).criteria.size() == 15);
   const Fidelity stepped =
       judged({level_rectangle(0, 0, 2, 4, 0), level_rectangle(2, 0, 4, 4, 0.008)});
   CHECK_FALSE(criterion(stepped, "steps in").is_met());

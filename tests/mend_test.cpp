@@ -213,7 +213,7 @@ TEST_CASE("facets and columns stay when their curve is no good") {
   world.curves[0].curve.shape.radius = -1;
   const Mended kept = leave_out_invalid(world);
   check_valid(kept);
-  CHECK(kept.world.curves.size() == 1);
+  CHECK(kept.world.curves.size() == 2);
   CHECK(kept.world.surfaces.size() == 2);
   CHECK(kept.world.obstacles.size() == 3);
   CHECK_FALSE(kept.world.obstacles[2].curve);

@@ -82,6 +82,8 @@ TEST_CASE("each fault is found and named") {
                  "curve 4: the start"));
   CHECK(contains(reason([](World& w) { w.curves[1].curve.shape.radius = NAN; }), "radius"));
   CHECK(contains(reason([](World& w) { w.curves[1].curve.high = -1; }), "extent"));
+  CHECK(contains(reason([](World& w) { w.curves[2].curve.shape.half_angle = 1.6; }), "half angle"));
+  CHECK(contains(reason([](World& w) { w.curves[2].curve.low = -0.1; }), "before the apex"));
   CHECK(contains(reason([](World& w) { w.curves[1].curve.sweep = 7; }), "sweep"));
   CHECK(contains(reason([](World& w) { w.colliders[1].surface = 8; }),
                  "collider 1: there is no surface 8"));

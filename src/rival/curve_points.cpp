@@ -18,9 +18,10 @@ std::vector<std::int32_t> label_curve_points(const PointCloud& cloud, const Grid
       const std::int32_t l = curves.of_site[i];
       if (l == kNone) continue;
       const RoundShape& shape = curves.curves[static_cast<std::size_t>(l)].shape;
+      const Vec3 place = grid.sites[i].position();
       const double most =
           options.max_point_distance *
-          std::hypot(scale.noise_at(grid.sites[i].position()), options.roundness * shape.radius);
+          std::hypot(scale.noise_at(place), options.roundness * shape.radius_at(place));
       for (std::uint32_t point : grid.points_of(i))
         if (std::abs(shape.signed_distance(cloud.points[point].cast<double>())) <= most)
           labels[point] = l;

@@ -18,9 +18,12 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr int kPasses = 3;         // of growth, each from what the one before found
-constexpr double kOtherPlane = 7;  // [noise2] price per point that no plane explains
-constexpr double kOffCurve = 16;   // [noise2] and at most of one that the curve does not
+constexpr int kPasses = 3;             // of growth, each from what the one before found
+constexpr double kOtherPlane = 7;      // [noise2] price per point that no plane explains
+constexpr double kOffCurve = 16;       // [noise2] and at most of one that the curve does not
+constexpr std::size_t kFewSites = 20;  // of a cylinder that is tried as a cone, which must ...
+constexpr double kMoreSites = 1.1;     // ... have so many times as many of them
+constexpr double kLessSquare = 0.7;    // ... or be off by so much less, in squares
 
 // The sites that a round surface takes.
 struct GrownCurve {
@@ -42,17 +45,20 @@ class CurveFinder {
         cos_angle_(std::cos(options.max_angle)),
         is_wide_(find_wide(clusters, scale, options)) {
     result_.of_site.assign(grid.sites.size(), kNone);
-    tried_.assign(grid.sites.size(), 0);
+    tried_.assign(grid.sites.size(), 0), tried_cones_ = tried_;
     stamp_.assign(grid.sites.size(), 0);
   }
 
   Curves run() {
     for (const RoundSeed& seed :
          find_round_seeds(grid_, neighbors_, scale_, local_, clusters_, options_)) {
-      if (result_.of_site[seed.sites[0]] != kNone || tried_[seed.sites[0]]) continue;
+      auto& tried = seed.shape.type == CurveType::cone ? tried_cones_ : tried_;
+      if (result_.of_site[seed.sites[0]] != kNone || tried[seed.sites[0]]) continue;
       GrownCurve candidate = grow(seed);
-      tried_[seed.sites[0]] = 1;
-      for (std::uint32_t i : candidate.sites) tried_[i] = 1;
+      tried[seed.sites[0]] = 1;
+      for (std::uint32_t i : candidate.sites) tried[i] = 1;
+      if (candidate.shape.type == CurveType::cylinder)
+        if (std::optional<GrownCurve> cone = tapered(candidate); cone && judge(*cone)) continue;
       judge(candidate);
     }
     return std::move(result_);
@@ -121,6 +127,42 @@ class CurveFinder {
     return c;
   }
 
+  // The mean square that a candidate's points are off it [m2].
+  double square_of(const GrownCurve& c) const {
+    double square = 0, points = 0;
+    for (std::uint32_t i : c.sites)
+      square += grid_.sites[i].points * off_surface(grid_.sites[i], c.shape).square,
+          points += grid_.sites[i].points;
+    return square / std::max(points, 1.0);
+  }
+
+  // Whether a cone widens over its sites by more than a cylinder may be off round.
+  bool widens(const GrownCurve& c) const {
+    double low = INFINITY, high = 0;
+    for (std::uint32_t i : c.sites) {
+      const double r = c.shape.radius_at(grid_.sites[i].position());
+      low = std::min(low, r), high = std::max(high, r);
+    }
+    return high - low >
+           std::max({options_.min_taper, 5 * scale_.noise, options_.min_taper_share * high});
+  }
+
+  // The cone that explains more than a cylinder, or explains it better; nothing where none does.
+  std::optional<GrownCurve> tapered(const GrownCurve& cylinder) {
+    if (cylinder.sites.size() < kFewSites) return std::nullopt;
+    RoundShape shape = cylinder.shape;
+    shape.type = CurveType::cone;
+    const auto cone = refit_round(shape, grid_, some_of(cylinder.sites, 2000), options_.weight, 10);
+    if (!cone || !has_good_radius(*cone, options_) || !widens({*cone, cylinder.sites}))
+      return std::nullopt;
+    GrownCurve grown = grow({*cone, cylinder.sites});
+    const bool is_more = static_cast<double>(grown.sites.size()) >
+                         kMoreSites * static_cast<double>(cylinder.sites.size());
+    if (!widens(grown) || !(is_more || square_of(grown) < kLessSquare * square_of(cylinder)))
+      return std::nullopt;
+    return grown;
+  }
+
   // Sites that a plane explains as well which has most of its own elsewhere stay with it.
   void leave_to_planes(GrownCurve& c) const {
     std::vector<double> inside(clusters_.clusters.size());
@@ -148,7 +190,8 @@ class CurveFinder {
       const double n = std::min<double>(s.points, options_.weight);
       const double variance = scale_.variance_at(s.position());
       // What built things are off round anyway is not held against either.
-      const double least = std::pow(options_.roundness * c.shape.radius, 2) / variance;
+      const double least =
+          std::pow(options_.roundness * c.shape.radius_at(s.position()), 2) / variance;
       double by_plane = kOtherPlane;
       if (const std::int32_t l = clusters_.label[i]; l != kNone)
         inside[static_cast<std::size_t>(l)] += s.points;
@@ -185,12 +228,12 @@ class CurveFinder {
   // Whether something is seen inside: a column is empty, the room that a curved wall bounds has a
   // floor.
   bool is_hollow(const GrownCurve& c, const RoundExtent& e) const {
-    const double inner = c.shape.radius - std::max(0.02, 5 * scale_.noise);
+    const double skin = std::max(0.02, 5 * scale_.noise);
     std::size_t inside = 0;
     for (const Site& s : grid_.sites) {
       const Vec3 p = s.position();
       const double h = c.shape.axis.dot(p - c.shape.point);
-      inside += h > e.low && h < e.high && c.shape.way_to(p).norm() < inner;
+      inside += h > e.low && h < e.high && c.shape.way_to(p).norm() < c.shape.radius_at(h) - skin;
     }
     return 4 * inside > c.sites.size();
   }
@@ -198,22 +241,26 @@ class CurveFinder {
   // Whether something bends, is covered, and is explained better than by planes. Columns and pipes
   // must show it over a third of their side and be long; what is wider, over its area.
   bool is_round(const GrownCurve& c, const RoundExtent& e) const {
-    const double r = c.shape.radius, turn = turn_of(c), gain = gain_of(c);
+    const double r = c.shape.radius_at((e.low + e.high) / 2), turn = turn_of(c), gain = gain_of(c);
     const double half = half_sweep(c.shape, e, grid_, c.sites);
-    if (e.area(r) < options_.min_area) return false;
-    if (r * (1 - std::cos(half)) < std::max(options_.min_bend, 5 * scale_.noise)) return false;
+    if (e.area(c.shape) < options_.min_area) return false;
+    if (r * (1 - std::cos(half)) * std::cos(c.shape.half_angle) <
+        std::max(options_.min_bend, 5 * scale_.noise))
+      return false;
     if (r < kSmallRadius)
       return 2 * half > options_.min_sweep && e.high - e.low > least_height(r) &&
              e.cover > options_.min_cover && gain > options_.min_gain &&
              turn < options_.max_turn + 0.15 * grid_.voxel / r;
     if (c.shape.type == CurveType::sphere && 2 * half < options_.min_dome) return false;
-    return 2 * half * 2 * half * e.area(r) > options_.min_wide &&
+    return 2 * half * 2 * half * e.area(c.shape) > options_.min_wide &&
            e.cover > options_.min_wide_cover && gain > options_.min_wide_gain &&
            turn < options_.max_wide_turn;
   }
 
-  void judge(GrownCurve& c) {
-    if (is_few(c) || !has_good_radius(c.shape, options_)) return;
+  // Keeps a candidate where it is a curve, and tells whether it is.
+  bool judge(GrownCurve& c) {
+    if (is_few(c) || !has_good_radius(c.shape, options_)) return false;
+    if (c.shape.type == CurveType::cone && !widens(c)) return false;
     leave_to_planes(c);
     std::size_t points = 0;
     double square = 0, variance = 0;
@@ -223,15 +270,22 @@ class CurveFinder {
       square += s.points * off_surface(s, c.shape).square;
       variance += s.points * variance_of(s, c.shape, scale_, options_);
     }
-    if (points < static_cast<std::size_t>(options_.min_points)) return;
-    if (square > variance * options_.max_own * options_.max_own) return;
-    const RoundExtent e = extent_of(c.shape, grid_, c.sites);
-    if (!is_round(c, e)) return;
+    if (points < static_cast<std::size_t>(options_.min_points)) return false;
+    if (square > variance * options_.max_own * options_.max_own) return false;
+    // A cone's point is its apex.
+    if (c.shape.type == CurveType::cone) {
+      c.shape.point -= c.shape.radius / std::tan(c.shape.half_angle) * c.shape.axis;
+      c.shape.radius = 0;
+    }
+    RoundExtent e = extent_of(c.shape, grid_, c.sites);
+    if (c.shape.type == CurveType::cone) e.low = std::max(e.low, 0.0);
+    if (!is_round(c, e)) return false;
     for (std::uint32_t i : c.sites)
       result_.of_site[i] = static_cast<std::int32_t>(result_.curves.size());
     const double rms = std::sqrt(square / static_cast<double>(points));
     result_.curves.push_back(
         {c.shape, e.low, e.high, e.start, e.sweep, is_hollow(c, e), {points, rms, e.cover}});
+    return true;
   }
 
   const Grid& grid_;
@@ -241,8 +295,8 @@ class CurveFinder {
   const Clustering& clusters_;
   const CurveOptions& options_;
   const double cos_angle_;
-  const std::vector<std::uint8_t> is_wide_;  // of clusters
-  std::vector<std::uint8_t> tried_;          // of sites
+  const std::vector<std::uint8_t> is_wide_;        // of clusters
+  std::vector<std::uint8_t> tried_, tried_cones_;  // of sites
   std::vector<std::uint32_t> stamp_;
   std::uint32_t time_ = 0;
   Curves result_;

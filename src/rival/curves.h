@@ -32,6 +32,9 @@ struct CurveOptions {
   double min_gain = 0.15;     // squared noise per point that planes explain it worse
   double max_turn = 0.15;     // [rad] rms between it and the planes of its neighbourhoods
 
+  double min_taper = 0.02;        // [m] by which a cone's radius grows; else it is a cylinder
+  double min_taper_share = 0.08;  // and share of the larger radius
+
   double min_wide = 1.5;        // [m2 rad2] of a wide one, area times the square of its sweep
   double min_dome = 1.2;        // [rad] sweep of a sphere
   double min_wide_cover = 0.5;  // as min_cover, of a wide one
@@ -48,8 +51,8 @@ struct Curves {
 
 inline std::size_t count_of(const Curves& curves) { return curves.curves.size(); }
 
-// Finds what is round at large: cylinders and spheres that explain their sites better than the
-// planes of `clusters` do. docs/method.md tells how.
+// Finds what is round at large: cylinders, cones and spheres that explain their sites better than
+// the planes of `clusters` do. docs/method.md tells how.
 Curves find_curves(const Grid& grid, const Neighbors& neighbors, const Scale& scale,
                    const std::vector<LocalPlane>& local, const Clustering& clusters,
                    const CurveOptions& options = {});

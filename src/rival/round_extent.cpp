@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kLeastGap = 0.35;  // [rad] of what goes all around, at most
 constexpr double kCell = 1.5;       // [voxel] in which there should be a site
+constexpr double kStray = 0.01;     // share of the sites at either end that may be strays
+constexpr double kNarrow = 0.002;   // and at the narrow end of a cone, that has few
 
 // The widest run of empty columns of a ring, and the column after it.
 std::pair<int, int> widest_gap(const std::vector<char>& column) {
@@ -39,9 +41,11 @@ RoundExtent extent_of(const RoundShape& shape, const Grid& grid,
     angle.push_back(std::atan2(way.dot(left), way.dot(zero)) + M_PI);
   }
   RoundExtent e;
-  e.low = quantile(std::move(low), 0.01), e.high = quantile(std::move(high), 0.99);
-  const double cell = kCell * grid.voxel;
-  const int bins = std::clamp(static_cast<int>(2 * M_PI * shape.radius / cell), 8, 256);
+  const bool is_cone = shape.type == CurveType::cone;
+  e.low = quantile(std::move(low), is_cone ? kNarrow : kStray);
+  e.high = quantile(std::move(high), 1 - kStray);
+  const double cell = kCell * grid.voxel, radius = shape.radius_at((e.low + e.high) / 2);
+  const int bins = std::clamp(static_cast<int>(2 * M_PI * radius / cell), 8, 256);
   const int rows = std::max(1, static_cast<int>((e.high - e.low) / cell));
   std::vector<char> hit(static_cast<std::size_t>(bins * rows)),
       column(static_cast<std::size_t>(bins));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "../curve.h"
@@ -17,7 +18,10 @@ struct RoundExtent {
   double cover = 0;            // share of that extent where there are sites
 
   // Of the surface that has sites [m2].
-  double area(double radius) const { return sweep * radius * (high - low) * cover; }
+  double area(const RoundShape& shape) const {
+    const double radius = shape.radius_at((low + high) / 2);
+    return sweep * radius * (high - low) / std::cos(shape.half_angle) * cover;
+  }
 };
 
 // The part of a round surface with some sites on it: without the outermost hundredth of them along

@@ -21,9 +21,9 @@ struct OffSurface {
 OffSurface off_surface(const Site& site, const RoundShape& shape);
 
 // The round surface nearest to the points of some sites: from the normals of the places around them
-// and Taubin's circle (1991) or a linear sphere, then by least squares of the distances, those of
-// outliers counting less. Nothing where the points tell none. `weight`: points of a site that
-// count.
+// and Taubin's circle (1991), a linear sphere or the apex of their planes, then by least squares of
+// the distances, those of outliers counting less. Nothing where the points tell none. `weight`:
+// points of a site that count.
 std::optional<RoundShape> fit_round(CurveType type, const Grid& grid,
                                     std::span<const std::uint32_t> sites,
                                     std::span<const Vec3f> normals, double weight);

@@ -23,6 +23,7 @@ constexpr double kBent = 2.5;          // [noise2] off a plane: it no longer exp
 constexpr float kLeastCosine = 0.8f;   // of neighbours' normals on one surface
 constexpr double kMostCylinder = 0.6;  // roundness of normals, both ways
 constexpr double kLeastSphere = 0.2;
+constexpr double kLeastAngle = 0.2;  // [rad] half of a cone's; less grows as a cylinder first
 
 // A set of sites, for some hundred.
 class SiteSet {
@@ -90,11 +91,12 @@ class SeedFinder {
     std::vector<Vec3f> normals;
     for (std::uint32_t i : some) normals.push_back(local_[i].normal);
     const double roundness = roundness_of(normals);
-    for (CurveType type : {CurveType::cylinder, CurveType::sphere}) {
+    for (CurveType type : {CurveType::cylinder, CurveType::sphere, CurveType::cone}) {
       if (type == CurveType::sphere ? roundness < kLeastSphere : roundness > kMostCylinder)
         continue;
       const auto shape = fit_round(type, grid_, some, normals, options_.weight);
       if (!shape || !has_good_radius(*shape, options_)) continue;
+      if (type == CurveType::cone && shape->half_angle < kLeastAngle) continue;
       double square = 0, points = 0, on = 0;
       for (std::uint32_t i : sites) {
         const Site& s = grid_.sites[i];
@@ -181,8 +183,11 @@ std::vector<RoundSeed> find_round_seeds(const Grid& grid, const Neighbors& neigh
   });
   std::vector<RoundSeed> seeds;
   for (auto& list : found) std::move(list.begin(), list.end(), std::back_inserter(seeds));
+  const auto order = [](const RoundSeed& s) {
+    return std::pair(s.shape.type == CurveType::cone, s.rank);
+  };
   std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const RoundSeed& a, const RoundSeed& b) { return a.rank < b.rank; });
+                   [&](const RoundSeed& a, const RoundSeed& b) { return order(a) < order(b); });
   return seeds;
 }
 

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> find_wide(const Clustering& clusters, const Scale& sca
 
 // Looks around the flattest site of each block of voxels that is in a cluster which may be a strip
 // of a curve: one that is narrow and turned a little against its neighbours. The neighbourhood
-// grows until a plane no longer explains it. The best come first.
+// grows until a plane no longer explains it. The best come first, cones after all others.
 std::vector<RoundSeed> find_round_seeds(const Grid& grid, const Neighbors& neighbors,
                                         const Scale& scale, const std::vector<LocalPlane>& local,
                                         const Clustering& clusters, const CurveOptions& options);
@@ -30,7 +30,7 @@ std::vector<RoundSeed> find_round_seeds(const Grid& grid, const Neighbors& neigh
 // The variance of points about a built curve [m2].
 inline double variance_of(const Site& site, const RoundShape& shape, const Scale& scale,
                           const CurveOptions& options) {
-  const double off = options.roundness * shape.radius;
+  const double off = options.roundness * shape.radius_at(site.position());
   return scale.variance_at(site.position()) + off * off;
 }
 

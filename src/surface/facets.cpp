@@ -37,6 +37,10 @@ Facets::Facets(const Curve& curve, const FacetOptions& options) : curve_(curve) 
     low_ = std::asin(std::clamp(curve.low / shape.radius, -1.0, 1.0));
     high_ = std::asin(std::clamp(curve.high / shape.radius, -1.0, 1.0));
   }
+  if (shape.type == CurveType::cone) {
+    cut_cone(options);
+    return;
+  }
   bands_.resize(static_cast<std::size_t>(chords(shape.radius, high_ - low_, options, sagitta)));
   const double tall = (high_ - low_) / static_cast<double>(bands_.size());
   for (std::size_t k = 0; k < bands_.size(); ++k) {
@@ -52,6 +56,25 @@ Facets::Facets(const Curve& curve, const FacetOptions& options) : curve_(curve) 
       const Vec3 out = std::cos(rise) * level + std::sin(rise) * shape.axis;
       planes_.push_back(plane_through(shape.point + mean * shape.radius * out, out));
     }
+  }
+}
+
+// All go through the apex.
+void Facets::cut_cone(const FacetOptions& options) {
+  const RoundShape& shape = curve_.shape;
+  const Vec3 left = shape.axis.cross(curve_.start);
+  // Neighbours are turned less than the circle is.
+  FacetOptions turned = options;
+  turned.min_turn /= std::cos(shape.half_angle);
+  const double radius = shape.radius_at(curve_.high);
+  const int count = chords(radius, curve_.sweep, turned, options.sagitta);
+  const double half = curve_.sweep / count / 2,
+               slope = (1 - half * half / 6) * std::tan(shape.half_angle);
+  bands_ = {{0, count}};
+  for (int j = 0; j < count; ++j) {
+    const double angle = (2 * j + 1) * half;
+    const Vec3 level = std::cos(angle) * curve_.start + std::sin(angle) * left;
+    planes_.push_back(plane_through(shape.point, (level - slope * shape.axis).normalized()));
   }
 }
 

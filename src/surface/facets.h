@@ -24,6 +24,8 @@ class Facets {
   std::size_t of(const Vec3& p) const;
 
  private:
+  void cut_cone(const FacetOptions& options);
+
   Curve curve_;
   struct Band {
     std::size_t first = 0;  // facet

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "../error.h"
@@ -66,12 +67,14 @@ class Measurement {
       boxes_.emplace_back();
       for (const Vec3& v : solids_.back().vertices) boxes_.back().extend(v);
     }
+    list_curves();
     noise_.resize(points_.size());
     near_.resize(points_.size());
     parallel_for(points_.size(), [&](std::size_t i) {
       noise_[i] =
           std::max(options.noise, options.depth_step * (points_[i] - camera_).squaredNorm());
       near_[i] = scene_.nearest(points_[i], max_distance_);
+      if (near_[i]) near_[i]->distance = std::min(near_[i]->distance, off_curve(i));
     });
     refuse_another_place();
     bend_ = std::min(measure_bend(world, points_, near_), options.max_bend);
@@ -91,6 +94,8 @@ class Measurement {
     look_at_points(result);
     look_at_places(result);
     describe_surfaces(result);
+    find_flat(result);
+    result.doubled = measure_doubled(world_, points_, near_, options_.doubled);
     if (!cloud_.cloud().viewpoints.empty()) look_along_rays(result);
     result.floors = measure_floors(world_, scene_, options_.floors);
     StrayOptions strays = options_.strays;
@@ -101,6 +106,40 @@ class Measurement {
 
  private:
   std::vector<Vec3> viewpoints() const { return cloud_.viewpoints(); }
+
+  // The curves that surfaces are facets of, and obstacles are.
+  void list_curves() {
+    std::map<int, const Curve*> by_id;
+    for (const CurvedPart& c : world_.curves) by_id[c.id] = &c.curve;
+    const auto curve_of = [&](const auto& thing) {
+      const auto found = thing.curve ? by_id.find(*thing.curve) : by_id.end();
+      return found == by_id.end() ? nullptr : found->second;
+    };
+    for (const Surface& s : world_.surfaces) surface_curves_.push_back(curve_of(s));
+    for (const Obstacle& o : world_.obstacles) obstacle_curves_.push_back(curve_of(o));
+  }
+
+  // The distance of a point from the curve that what is nearest to it stands for: nobody blames a
+  // point for the facets. Infinite where there is none beside it.
+  double off_curve(std::size_t point) const {
+    const Nearest& near = *near_[point];
+    const Curve* c = (near.is_surface ? surface_curves_ : obstacle_curves_)[near.index];
+    if (!c) return INFINITY;
+    const double height = c->height_of(points_[point]), margin = options_.max_tolerance;
+    if (height < c->low - margin || height > c->high + margin) return INFINITY;
+    return std::abs(c->shape.signed_distance(points_[point]));
+  }
+
+  // Of a point from its surface, or the curve that this is a facet of; positive on the free side.
+  double offset_of(std::size_t point) const {
+    const std::size_t s = near_[point]->index;
+    const Plane& plane = world_.surfaces[s].plane;
+    const Curve* c = surface_curves_[s];
+    const double off_plane = plane.signed_distance(points_[point]);
+    if (!c || std::abs(off_plane) <= near_[point]->distance) return off_plane;
+    const double outwards = plane.normal.dot(c->shape.normal_at(points_[point])) > 0 ? 1 : -1;
+    return outwards * c->shape.signed_distance(points_[point]);
+  }
 
   // What a depth camera's model says is believed; noise and bend that were found may be those of a
   // scan that has no surfaces.
@@ -211,7 +250,7 @@ class Measurement {
       if (!near_[i] || !near_[i]->is_surface || near_[i]->distance > reach) continue;
       const std::size_t s = near_[i]->index;
       around[s].squares += near_[i]->distance * near_[i]->distance;
-      around[s].offsets.push_back(world_.surfaces[s].plane.signed_distance(points_[i]));
+      around[s].offsets.push_back(offset_of(i));
       around[s].noise.push_back(noise_[i]);
     }
     for (std::size_t s = 0; s < around.size(); ++s) {
@@ -228,20 +267,31 @@ class Measurement {
     }
   }
 
-  // Rays to all that is there: points that the world explains, and others where the scan is
-  // planar. The rest may be stray points or a mirror's, of which no ray came.
-  void look_along_rays(Fidelity& result) const {
+  // What is planar, but on no surface: the world lacks a wall there, or a solid has swallowed it.
+  void find_flat(Fidelity& result) {
+    const auto is_on_surface = [&](std::size_t i) {
+      return explained_[i] && near_[i] && near_[i]->is_surface;
+    };
     std::vector<Vec3> others;
     for (std::size_t i = 0; i < points_.size(); ++i)
-      if (!explained_[i]) others.push_back(points_[i]);
+      if (!is_on_surface(i)) others.push_back(points_[i]);
     const auto normals = planar_normals(
         others, cloud_,
         {.cell = std::max(options_.planar_cell, 12 * options_.noise), .noise = options_.noise});
+    flat_.resize(points_.size());
+    std::size_t other = 0, flat = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (!is_on_surface(i)) flat += (flat_[i] = normals[other++]).has_value();
+    result.flat = static_cast<double>(flat) / static_cast<double>(points_.size());
+  }
+
+  // Rays to all that is there: points that the world explains, and others where the scan is
+  // planar. The rest may be stray points or a mirror's, of which no ray came.
+  void look_along_rays(Fidelity& result) const {
     std::vector<SeenPoint> seen;
-    std::size_t other = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (!explained_[i]) {
-        if (const auto& normal = normals[other++]) seen.push_back({points_[i], normal});
+        if (flat_[i]) seen.push_back({points_[i], flat_[i]});
       } else if (near_[i] && near_[i]->is_surface) {
         seen.push_back({points_[i], world_.surfaces[near_[i]->index].plane.normal});
       } else {
@@ -271,8 +321,10 @@ class Measurement {
   double cover_ = 0, max_distance_ = 0, bend_ = 0;  // [m]
   Vec3 camera_ = Vec3::Zero();
   std::vector<Vec3> points_;
+  std::vector<const Curve*> surface_curves_, obstacle_curves_;
   std::vector<double> noise_;                 // [m] of each point
   std::vector<std::optional<Nearest>> near_;  // of each point
+  std::vector<std::optional<Vec3>> flat_;     // normals of planes that points off surfaces lie in
   std::vector<char> explained_;               // whether each point is near a surface or obstacle
   std::vector<Mesh> solids_;                  // the obstacles
   std::vector<Box3> boxes_;                   // around them
@@ -297,6 +349,8 @@ void judge(Fidelity& f, const FidelityOptions& o) {
        floor},
       {"gaps in floors", "%", of_floor(f.floors.gaps), o.max_gaps, false, floor},
       {"floating surfaces", "%", f.strays.floating_area / f.strays.area, o.max_floating},
+      {"flat points off surfaces", "%", f.flat, o.max_flat},
+      {"doubled surfaces", "%", f.doubled, o.max_doubled, false, "dense points"},
       {"crossing surfaces", "%", f.strays.crossings / f.strays.edges, o.max_crossings},
       {"free-space violations", "%", f.free_space_violations, o.max_violations, false, viewpoints},
       {"leaks", "%", f.leaks, o.max_leaks, false, viewpoints},

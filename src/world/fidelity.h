@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "doubled.h"
 #include "floor_quality.h"
 #include "sight_lines.h"
 #include "stray_surfaces.h"
@@ -52,6 +53,7 @@ struct FidelityOptions {
   // What else is looked at.
   FloorQualityOptions floors;
   StrayOptions strays;
+  DoubledOptions doubled;
 
   // The limits of the verdict.
   double max_median_per_noise = 1.5;  // of the distance scan to world; 0.67 where all is right
@@ -69,6 +71,8 @@ struct FidelityOptions {
   double max_gaps = 0.01;      // share of the floors' area
   double max_floating = 0.05;  // share of the surfaces' area
   double max_crossings = 0.01;  // share of the edges' length
+  double max_doubled = 0.2;     // share of the surfaces' area in two layers
+  double max_flat = 0.05;       // share of the points that are flat, and on no surface
 };
 
 // Of distances between a scan and a world [m], up to Fidelity::max_distance.
@@ -126,6 +130,8 @@ struct Fidelity {
   double close = 0;   // share of the points within the tolerance of a surface that are within half
   double inside = 0;  // share of the points that are in obstacles, farther than the tolerance from
                       // all skins and surfaces
+  double flat = 0;    // share of the points that lie in planes over planar_cell, but on no surface
+  std::optional<double> doubled;  // share of the surfaces' area whose points lie in two layers
   std::optional<double> free_space_violations;  // share of the rays that go through the world
   std::optional<double> leaks;            // share of the rays that go on where they should end
   std::vector<SurfaceFidelity> surfaces;  // in the order of the world's

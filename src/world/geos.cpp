@@ -188,6 +188,10 @@ std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& othe
   const Geometry left = difference(context, {polygon}, others);
   std::vector<Rings> result;
   if (!left) return result;
+  if (min_width == 0) {
+    collect(context, left.get(), result);
+    return result;
+  }
   const Geometry core = offset(context, left, -min_width / 2);
   if (core) collect(context, offset(context, core, min_width / 2).get(), result);
   return result;

@@ -204,15 +204,18 @@ Collider read_collider(const Node& n) {
 }
 
 CurvedPart read_curve(const Node& n) {
-  n.expect_keys(
-      {"id", "type", "point", "axis", "radius", "extent", "start", "sweep", "facing", "support"});
+  const CurveType type =
+      n.at("type").one_of({CurveType::cylinder, CurveType::sphere, CurveType::cone});
+  const bool is_cone = type == CurveType::cone;
+  n.expect_keys({"id", "type", "point", "axis", is_cone ? "half_angle" : "radius", "extent",
+                 "start", "sweep", "facing", "support"});
   const Node extent = n.at("extent");
   if (extent.size() != 2) extent.fail("should be a list of 2 numbers");
   const std::string facing = n.at("facing").text();
   if (facing != "in" && facing != "out") n.at("facing").fail("is neither 'in' nor 'out'");
   return {n.at("id").integer(),
-          {{n.at("type").one_of({CurveType::cylinder, CurveType::sphere}), n.at("point").vector(),
-            n.at("axis").vector(), n.at("radius").number()},
+          {{type, n.at("point").vector(), n.at("axis").vector(),
+            is_cone ? 0 : n.at("radius").number(), is_cone ? n.at("half_angle").number() : 0},
            extent.item(0).number(),
            extent.item(1).number(),
            n.at("start").vector(),

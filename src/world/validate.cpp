@@ -115,8 +115,13 @@ class Validator {
     if (!is_unit(c.shape.axis)) return report("{}: the axis is not of length 1", name);
     if (!is_unit(c.start) || std::abs(c.start.dot(c.shape.axis)) > kUnitTolerance)
       report("{}: the start is not of length 1 across the axis", name);
-    if (!(c.shape.radius > 0 && std::isfinite(c.shape.radius)))
+    if (c.shape.type == CurveType::cone) {
+      if (!(c.shape.half_angle > 0 && c.shape.half_angle < M_PI / 2))
+        report("{}: the half angle {} is not from 0 to pi / 2", name, c.shape.half_angle);
+      if (!(c.low >= 0)) report("{}: the extent begins at {}, before the apex", name, c.low);
+    } else if (!(c.shape.radius > 0 && std::isfinite(c.shape.radius))) {
       report("{}: the radius {} is not positive", name, c.shape.radius);
+    }
     if (!(c.high > c.low && std::isfinite(c.high - c.low)))
       report("{}: the extent {} to {} is none", name, c.low, c.high);
     if (!(c.sweep > 0 && c.sweep < 2 * M_PI + kUnitTolerance))

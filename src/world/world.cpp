@@ -38,7 +38,10 @@ const char* name_of(Source source) {
   return names[static_cast<int>(source)];
 }
 
-const char* name_of(CurveType type) { return type == CurveType::sphere ? "sphere" : "cylinder"; }
+const char* name_of(CurveType type) {
+  static constexpr const char* names[] = {"cylinder", "sphere", "cone"};
+  return names[static_cast<int>(type)];
+}
 
 const char* name_of(OpeningKind kind) {
   static constexpr const char* names[] = {"door", "window", "passage"};

@@ -90,16 +90,18 @@ Json to_json(const Obstacle& o) {
 Json to_json(const Collider& c) { return with_shape({{"surface", c.surface}}, c.shape); }
 Json to_json(const CurvedPart& c) {
   const Curve& curve = c.curve;
-  return {{"id", c.id},
-          {"type", name_of(curve.shape.type)},
-          {"point", to_json(curve.shape.point)},
-          {"axis", to_json(curve.shape.axis)},
-          {"radius", curve.shape.radius},
-          {"extent", {curve.low, curve.high}},
-          {"start", to_json(curve.start)},
-          {"sweep", curve.sweep},
-          {"facing", curve.hollow ? "in" : "out"},
-          {"support", to_json(curve.support)}};
+  const bool is_cone = curve.shape.type == CurveType::cone;
+  return {
+      {"id", c.id},
+      {"type", name_of(curve.shape.type)},
+      {"point", to_json(curve.shape.point)},
+      {"axis", to_json(curve.shape.axis)},
+      {is_cone ? "half_angle" : "radius", is_cone ? curve.shape.half_angle : curve.shape.radius},
+      {"extent", {curve.low, curve.high}},
+      {"start", to_json(curve.start)},
+      {"sweep", curve.sweep},
+      {"facing", curve.hollow ? "in" : "out"},
+      {"support", to_json(curve.support)}};
 }
 Json to_json(const Room& r) {
   Json j = {{"id", r.id}, {"name", r.name}, {"surfaces", r.surfaces}};

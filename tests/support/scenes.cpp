@@ -110,7 +110,15 @@ World full_world() {
                     Vec3::UnitX(),
                     0.3,
                     true,
-                    {55, 0.02, 1}}}};
+                    {55, 0.02, 1}}},
+                  {6,
+                   {{CurveType::cone, {3, 2, 2}, -Vec3::UnitZ(), 0, 0.25},
+                    0.1,
+                    1.9,
+                    Vec3::UnitX(),
+                    3,
+                    false,
+                    {321, 0.003, 0.9}}}};
   world.obstacles[2].curve = 4, world.surfaces[1].curve = 5;
   world.rooms = {{0, "hall", {0, 1}}, {1, "yard", {}}};
   world.doors = {{7, {0, 1}}};

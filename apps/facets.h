@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How finely what is round is cut in the files that `build` and `export` write.
+#pragma once
+
+#include <string>
+
+#include "cli.h"
+
+namespace scanworld::cli {
+
+// Adds --sagitta to a verb.
+void add_sagitta(CLI::App& verb, std::string& text);
+
+// "5mm", "1cm", "0.01m" or "0.01" in metres; throws usage for other text. 0 for none.
+double sagitta_from(const std::string& text);
+
+// The world with new facets, and warnings about those that stay; as it is for a sagitta of 0.
+World cut_anew(World world, double sagitta, const Console& console);
+
+}  // namespace scanworld::cli
