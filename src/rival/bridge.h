@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cluster.h"
-#include "grid.h"
+#include "open_gaps.h"
 #include "scale.h"
 
 namespace scanworld::rival {
@@ -17,6 +16,9 @@ struct BridgeOptions {
   double max_step = 0.006;   // [m] from one to the other in the midst of the gap
   double max_angle = 0.035;  // [rad] between them
 };
+
+// The gaps across which clusters may be one before it is known what is a surface.
+GapOptions gaps_of_clusters(const Grid& grid, const BridgeOptions& options);
 
 // Unites clusters with one plane across a gap that no other cluster goes through: a wall that is
 // sparse or hidden in places is one wall.
