@@ -136,6 +136,13 @@ std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::
   return facings;
 }
 
+std::vector<Facing> facings_of(const rival::Clustering& clustering) {
+  std::vector<Facing> facings;
+  for (const rival::Cluster& cluster : clustering.clusters)
+    facings.push_back({cluster.fit.plane.normal, cluster.moments.n});
+  return facings;
+}
+
 // What a method finds.
 struct Found {
   std::vector<FoundSurface> surfaces;
@@ -302,8 +309,17 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     return find_rough(grid, neighbors, scale, std::move(clusters), options,
                       watch(recorder, "Evidence"));
   });
+  const Vec3 up = find_frame(cloud, facings_of(clusters)).up;
+  clusters = log.run("Joining floors", "clusters -> clusters", clusters, [&] {
+    return join_floors(grid, scale, std::move(clusters), up, options.floors, options.merge,
+                       options.bridge);
+  });
   clusters = log.run("Regularising", "clusters -> clusters", clusters,
                      [&] { return regularise(scale, std::move(clusters), options.regularise); });
+  clusters = log.run("Folding floors", "clusters -> clusters", clusters, [&] {
+    return fold_floors(grid, scale, std::move(clusters), up, options.floors, options.merge,
+                       options.bridge);
+  });
   local = {};
   scale.local = log.run("Mapping noise", "clusters -> places", clusters, [&] {
     const std::vector<NoiseSample> samples = sample_noise(grid, clusters);
@@ -381,7 +397,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 31);
+  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 33);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);

@@ -55,9 +55,18 @@ TEST_CASE("patches that only come near a line are not sure of it, those far from
   }
 }
 
-TEST_CASE("planes that are nearly parallel have no seam") {
-  LabelledScan scan;
-  scan.add({0, 0, 0}, {3, 0, 0}, {0, 2, 0});
-  scan.add({0, 2, 0}, {3, 0, 0}, {0, 2, 0.2});
-  CHECK(find_seams(scan.patches()).empty());
+TEST_CASE("planes that are nearly parallel have a seam only where each is on a side of its own") {
+  LabelledScan facets;
+  facets.add({0, 0, 0}, {3, 0, 0}, {0, 2, 0});
+  facets.add({0, 2, 0}, {3, 0, 0}, {0, 2, 0.1});
+  const std::vector<Seam> seams = find_seams(facets.patches());
+  REQUIRE(seams.size() == 1);
+  REQUIRE(seams[0].sure.size() == 1);
+  CHECK(seams[0].sure[0].length() == doctest::Approx(3).epsilon(0.05));
+  CHECK(seams[0].line.point.y() == doctest::Approx(2).epsilon(1e-6));
+
+  LabelledScan crossing;
+  crossing.add({0, 0, 0}, {3, 0, 0}, {0, 4, 0});
+  crossing.add({0, 1.5, -0.025}, {3, 0, 0}, {0, 2, 0.1});
+  CHECK(find_seams(crossing.patches()).empty());
 }

@@ -23,12 +23,12 @@ double joint_price(const Cluster& a, const Cluster& b, const Scale& scale, doubl
          square_limit(a, b, bend, scale, max_rms);
 }
 
-void Joiner::join(std::size_t a, std::size_t b) {
+void Joiner::join(std::size_t a, std::size_t b, double roughness) {
   const std::uint32_t low = std::min(find(a), find(b)), high = std::max(find(a), find(b));
   Cluster& whole = c_.clusters[low];
   whole.moments += c_.clusters[high].moments;
   whole.fit = fit(whole.moments);
-  whole.roughness = std::max(whole.roughness, c_.clusters[high].roughness);
+  whole.roughness = std::max({whole.roughness, c_.clusters[high].roughness, roughness});
   sets_.unite(low, high);
 }
 

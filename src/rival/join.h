@@ -32,7 +32,8 @@ class Joiner {
   // What the cluster is part of by now.
   const Cluster& whole(std::size_t cluster) { return c_.clusters[find(cluster)]; }
 
-  void join(std::size_t a, std::size_t b);
+  // What is joined may be rough beside noise [m].
+  void join(std::size_t a, std::size_t b, double roughness = 0);
   // Gives the sites their new labels and wakes those.
   Clustering finish(const Grid& grid);
 

@@ -69,7 +69,7 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
           const auto k = static_cast<std::size_t>(a.label);
           const double square = std::pow(c.plane(a.label).signed_distance(p), 2);
           const double expected = variance + bends[k];
-          const double own = options.max_own * std::max(noise[k], local);
+          const double own = options.max_own * std::max({noise[k], local, c.clusters[k].roughness});
           if (square > std::min(max_square * expected, own * own)) continue;
           double price = square / expected + a.price;
           // A Gaussian that is wider is lower.

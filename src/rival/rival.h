@@ -11,6 +11,7 @@
 #include "curves.h"
 #include "evidence.h"
 #include "flatness.h"
+#include "floors.h"
 #include "growth.h"
 #include "labels.h"
 #include "layers.h"
@@ -43,6 +44,7 @@ struct RivalOptions {
   EvidenceOptions evidence;
   ColumnOptions columns;
   RoughOptions rough;
+  FloorOptions floors;
   CurveOptions curves;
   RegulariseOptions regularise;
   LabelOptions labels;

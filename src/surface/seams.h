@@ -8,7 +8,8 @@
 namespace scanworld::surface {
 
 struct SeamOptions {
-  double min_sine = 0.17;    // of the angle between planes that can meet (10 degrees)
+  double min_sine = 0.17;    // of the angle between planes that can meet (10 degrees) ...
+  double fold_sine = 0.004;  // ... and of the facets of one that bends, each on a side of its own
   double gap = 0.15;         // [m] patches meet in a line if both come so near to it ...
   double min_length = 0.09;  // [m] ... over this length
   double extension = 0.3;    // [m] a seam may cut so far beyond

@@ -237,6 +237,8 @@ OptionList list_options(SurfaceOptions& o) {
        "of a floor without points and with nothing below, where 1 is for others", 0, 1},
       {"surface.seams.min_sine", &o.seams.min_sine, "", "of the angle between planes that can meet",
        0.01, 1},
+      {"surface.seams.fold_sine", &o.seams.fold_sine, "",
+       "and of the angle between the facets of one that bends", 1e-3, 1},
       {"surface.seams.gap", &o.seams.gap, "m", "planes meet if both come so near to their line", 0},
       {"surface.seams.min_length", &o.seams.min_length, "m", "over this length", 0},
       {"surface.seams.extension", &o.seams.extension, "m", "a seam may cut so far beyond", 0},
