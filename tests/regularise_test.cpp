@@ -135,3 +135,19 @@ TEST_CASE("a small part of a wall that is hardly off the large one is in its pla
   const auto after = turned({wall, far});
   CHECK(std::abs(after[1].fit.plane.signed_distance({11, 0.004, 1})) < 0.001);
 }
+
+TEST_CASE("a plane is turned as far as the scan's surfaces bend, but no farther") {
+  Random random(3);
+  const Vec3 off = kX + 0.006 * Vec3::UnitZ();  // by 1.5 mrad, as a floor is that sags
+  const std::vector<rival::Cluster> before = {rectangle(Vec3::Zero(), kX, kY, random),
+                                              rectangle(kZ, off, kY, random)};
+  const auto turned_by = [&](double bend) {
+    Scale scale = kScale;
+    if (bend > 0) scale.flatness.samples = {{4, bend}};
+    const auto after = regularise(scale, {.clusters = before}, {}).clusters;
+    return 1 - cosine(after[0], after[1]) < 1e-12;
+  };
+  CHECK_FALSE(turned_by(0));
+  CHECK_FALSE(turned_by(0.0002));
+  CHECK(turned_by(0.004));
+}

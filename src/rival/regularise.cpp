@@ -15,18 +15,25 @@ double noise_of(const Cluster& cluster, const Scale& scale) {
   return noise_of(cluster, kLeast * scale.noise_at(cluster.fit.centroid));
 }
 
-// Whether a cluster may have this normal: its points lie hardly worse.
+// How far surfaces of its extent are off their planes by themselves [m].
+double bend_of(const Cluster& cluster, const Scale& scale) {
+  return scale.flatness.bend_at(extent_of(cluster.fit));
+}
+
+// Whether a cluster may have this normal: its points lie hardly worse. What is bent does not tell
+// its plane better by more points.
 bool may_turn(const Cluster& cluster, const Vec3& normal, const Scale& scale,
               const RegulariseOptions& options) {
-  const double n = cluster.moments.n, noise = noise_of(cluster, scale);
+  const double n = cluster.moments.n, noise = noise_of(cluster, scale),
+               bend = bend_of(cluster, scale);
   const double rise =
-      n * (normal.dot(cluster.moments.covariance() * normal) - cluster.fit.variance[0]) /
-      (noise * noise);
+      (normal.dot(cluster.moments.covariance() * normal) - cluster.fit.variance[0]) /
+      (noise * noise / n + bend * bend);
   const double tilt =
       std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(cluster.fit.plane.normal), 2)));
   const double half_length = std::sqrt(3 * cluster.fit.variance[2]);
   return rise < options.max_rise &&
-         tilt * half_length < options.max_shift + 3 * noise / std::sqrt(n);
+         tilt * half_length < options.max_shift + 3 * noise / std::sqrt(n) + bend;
 }
 
 // The cluster with this normal through its centroid.
@@ -134,8 +141,8 @@ void close_cracks(std::vector<Cluster>& clusters, const std::vector<std::size_t>
   for (std::size_t k : order) {
     Cluster& cluster = clusters[k];
     const Plane* nearest = nullptr;
-    double least =
-        std::min(options.max_crack, options.max_step * scale.noise_at(cluster.fit.centroid));
+    const double noise = std::hypot(scale.noise_at(cluster.fit.centroid), bend_of(cluster, scale));
+    double least = std::min(options.max_crack, options.max_step * noise);
     for (std::size_t other : larger) {
       const Plane& plane = clusters[other].fit.plane;
       if (std::abs(plane.normal.dot(cluster.fit.plane.normal)) < 0.9 ||
