@@ -54,7 +54,8 @@ std::size_t bridged(const Scene& scene, const BridgeOptions& options = {}) {
 std::size_t joined(Scene scene, const BridgeOptions& options = {}, double screen = 0.5) {
   scene.screen = screen;
   const Stages s = gap_stages(scene);
-  return count_clusters(s, bridge_pieces(s.grid, walls_of(s, scene), options)) - (screen > 0);
+  return count_clusters(s, bridge_pieces(s.grid, s.scale, walls_of(s, scene), options)) -
+         (screen > 0);
 }
 
 }  // namespace
@@ -109,6 +110,10 @@ TEST_CASE("pieces with a step, at an angle or far apart stay two") {
 TEST_CASE("pieces with a gap that nothing hides stay two, as those of a fence do") {
   CHECK(joined({.gap = 0.3}, {}, 0) == 2);
   CHECK(joined({.gap = 0.3}, {}, 1.5) == 2);
+}
+
+TEST_CASE("in noise of more than a step pieces stay two") {
+  CHECK(joined({.gap = 0.3}, {.max_step = 0.0025}) == 2);
 }
 
 TEST_CASE("a wall that crosses between pieces keeps them two, even where they nearly touch") {

@@ -11,8 +11,9 @@ namespace scanworld::rival {
 
 namespace {
 
-constexpr double kNever = 1e9;  // a price
-constexpr double kHidden = 2;   // [voxels] what is hidden is wider
+constexpr double kNever = 1e9;      // a price
+constexpr double kHidden = 2;       // [voxels] what is hidden is wider
+constexpr double kMostNoise = 1.5;  // [max_step] in more a step is not seen
 
 // Joins clusters across gaps as long as the price of what they have become is low enough.
 Clustering join_across(const std::vector<Gap>& gaps, const Grid& grid, Clustering c,
@@ -40,12 +41,14 @@ Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering c,
   return join_across(gaps, grid, std::move(c), price);
 }
 
-Clustering bridge_pieces(const Grid& grid, Clustering c, const BridgeOptions& options) {
+Clustering bridge_pieces(const Grid& grid, const Scale& scale, Clustering c,
+                         const BridgeOptions& options) {
   const double parallel = std::cos(options.max_angle);
   const auto price = [&](const Cluster& a, const Cluster& b, const Vec3& middle) {
     const Plane &p = a.fit.plane, &q = b.fit.plane;
     const double cosine = p.normal.dot(q.normal), side = cosine < 0 ? -1 : 1;
-    if (std::abs(cosine) < parallel) return kNever;
+    if (std::abs(cosine) < parallel || scale.noise_at(middle) > kMostNoise * options.max_step)
+      return kNever;
     return std::abs(p.signed_distance(middle) - side * q.signed_distance(middle)) /
            options.max_step;
   };

@@ -27,8 +27,9 @@ Clustering bridge_clusters(const Grid& grid, const Scale& scale, Clustering clus
 
 // Unites clusters that are known to be surfaces, across gaps that something before or behind may
 // hide. What decides is whether they go on into each other without a step: surfaces bend, and to
-// those far apart no plane is common.
-Clustering bridge_pieces(const Grid& grid, Clustering clustering,
+// those far apart no plane is common. In noise of more than a step nothing is united: there the
+// fronts of goods beside each other have none either.
+Clustering bridge_pieces(const Grid& grid, const Scale& scale, Clustering clustering,
                          const BridgeOptions& options = {});
 
 }  // namespace scanworld::rival

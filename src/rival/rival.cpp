@@ -96,7 +96,7 @@ Clustering confirm(const Grid& grid, const Neighbors& neighbors, const Scale& sc
   tell(observe, "what is no plane is dropped", c);
   c = join_layers(grid, scale, std::move(c), options.layers);
   tell(observe, "layers of one surface are joined", c);
-  c = bridge_pieces(grid, std::move(c), options.bridge);
+  c = bridge_pieces(grid, scale, std::move(c), options.bridge);
   tell(observe, "pieces of one surface are joined", c);
   return compete(grid, neighbors, scale, local, std::move(c), options.rivalry, observe);
 }
