@@ -73,9 +73,12 @@ bool is_hidden(const Link& link, const Vec3& normal, const ClusterCells& cells) 
 }  // namespace
 
 ClusterCells::ClusterCells(const Grid& grid, const Clustering& c) : edge_(3 * grid.voxel) {
-  for (std::size_t i = 0; i < grid.sites.size(); ++i)
-    if (const Vec3 p = grid.sites[i].position(); has_code(p, edge_))
-      clusters_.emplace_back(morton_of(cell_of(p, edge_)), c.label[i]);
+  for (std::size_t i = 0; i < grid.sites.size(); ++i) {
+    const Vec3 p = grid.sites[i].position();
+    if (!has_code(p, edge_)) continue;
+    const std::pair entry(morton_of(cell_of(p, edge_)), c.label[i]);
+    if (clusters_.empty() || clusters_.back() != entry) clusters_.push_back(entry);
+  }
   std::sort(clusters_.begin(), clusters_.end());
   clusters_.erase(std::unique(clusters_.begin(), clusters_.end()), clusters_.end());
 }
@@ -98,14 +101,14 @@ struct GapFinder::Ways {
 };
 
 GapFinder::GapFinder(const Grid& grid, const Clustering& c, const GapOptions& options)
-    : grid_(grid),
-      c_(c),
-      options_(options),
-      members_(members_of(c)),
-      boxes_(members_.size()),
-      cells_(grid, c) {
+    : grid_(grid), c_(c), options_(options), members_(members_of(c)), boxes_(members_.size()) {
   for (std::size_t k = 0; k < members_.size(); ++k)
     for (const std::uint32_t i : members_[k]) boxes_[k].extend(grid.sites[i].position());
+}
+
+const ClusterCells& GapFinder::cells() const {
+  if (!cells_) cells_.emplace(grid_, c_);
+  return *cells_;
 }
 
 std::vector<Gap> GapFinder::find(const GapPrice& price_of) const {
@@ -162,8 +165,8 @@ bool GapFinder::are_open(const Ways& ways) const {
   for (const Link& link : ways.links) {
     if (link.length() > longest) break;
     ++all;
-    open += !is_crossed(link, own.normal, cells_, parts) &&
-            (link.length() <= options_.hidden_from || is_hidden(link, own.normal, cells_));
+    open += !is_crossed(link, own.normal, cells(), parts) &&
+            (link.length() <= options_.hidden_from || is_hidden(link, own.normal, cells()));
   }
   return open >= options_.open_share * all;
 }

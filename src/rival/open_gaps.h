@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -67,6 +68,7 @@ class GapFinder {
  private:
   struct Ways;
 
+  const ClusterCells& cells() const;
   Ways find_ways(std::size_t a, std::size_t b) const;
   bool are_open(const Ways& ways) const;
 
@@ -74,8 +76,8 @@ class GapFinder {
   const Clustering& c_;
   const GapOptions options_;
   const std::vector<std::vector<std::uint32_t>> members_;
-  std::vector<Box3> boxes_;  // of their sites
-  const ClusterCells cells_;
+  std::vector<Box3> boxes_;                    // of their sites
+  mutable std::optional<ClusterCells> cells_;  // made when first asked for
 };
 
 }  // namespace scanworld::rival
