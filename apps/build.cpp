@@ -189,9 +189,8 @@ void run(BuildRequest request) {
   Report reading;
   PointCloud cloud =
       StageLog(reading, progress, 1).run("Reading", "files -> points", request.scans, [&] {
-        return read_scan(request.scans);
+        return read_scan(request.scans, poses);
       });
-  use_poses(cloud, poses);
   if (request.preset.empty()) {
     request.preset = preset_for(cloud);
     options = resolve_options(request);
@@ -255,9 +254,7 @@ void add_build(CLI::App& app) {
                    "Mean time that a contact test in Bullet may take here: 5us; simplifies until "
                    "it does")
       ->type_name("TIME");
-  verb->add_option("--poses", request->poses,
-                   "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")
-      ->type_name("F");
+  verb->add_option("--poses", request->poses, kPosesHelp)->type_name("F");
   verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

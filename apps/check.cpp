@@ -87,9 +87,7 @@ void add_check(CLI::App& app) {
       ->type_name("WORLD");
   verb->add_option("scans", request->scans, "The scan that it was made of, to measure it against")
       ->type_name("SCAN");
-  verb->add_option("--poses", request->poses,
-                   "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")
-      ->type_name("F");
+  verb->add_option("--poses", request->poses, kPosesHelp)->type_name("F");
   verb->add_option("--threads", request->threads, "Threads to use; 0 = all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

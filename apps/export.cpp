@@ -34,8 +34,7 @@ void run_on_scan(const ExportRequest& request) {
   if (request.all)
     throw Error(Cause::usage, request.world.string() + ": --all needs a world; see build");
   scan_export_format(request.out, request.format);  // before the scan is read
-  PointCloud scan = read_scan({request.world});
-  if (!request.poses.empty()) use_poses(scan, read_poses(request.poses));
+  const PointCloud scan = read_scan_with_poses({request.world}, request.poses);
   export_scan(scan, request.out, request.options, request.format);
 }
 
@@ -128,7 +127,10 @@ void add_export(CLI::App& app) {
       ->capture_default_str();
   verb->add_flag("--open-glass", options.open_glass,
                  "Grids and maps: panes of glass are no obstacles, as to a lidar");
-  verb->add_option("--poses", request->poses, "Grids of scans: scanner positions, one a line")
+  verb->add_option(
+          "--poses", request->poses,
+          "Grids of scans: scanner positions, one a line, that a property scan_index of the "
+          "points counts from 0")
       ->type_name("F");
   verb->add_option("--min-points", options.min_points,
                    "Grids of scans: cells with fewer points have none")

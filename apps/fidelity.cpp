@@ -66,18 +66,9 @@ std::vector<SurfaceFidelity> worst_surfaces(const Fidelity& fidelity) {
 
 }  // namespace
 
-void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses) {
-  if (poses.empty()) return;
-  cloud.viewpoints.clear();
-  for (const Vec3& pose : poses) cloud.viewpoints.push_back(pose - cloud.origin);
-}
-
 PointCloud read_scan_with_poses(const std::vector<std::filesystem::path>& scans,
                                 const std::filesystem::path& poses) {
-  const std::vector<Vec3> positions = poses.empty() ? std::vector<Vec3>{} : read_poses(poses);
-  PointCloud cloud = read_scan(scans);
-  use_poses(cloud, positions);
-  return cloud;
+  return read_scan(scans, poses.empty() ? std::vector<Vec3>{} : read_poses(poses));
 }
 
 Fidelity fidelity_of(const World& world, const PointCloud& scan, std::size_t points) {

@@ -13,9 +13,10 @@
 
 namespace scanworld::cli {
 
-// Gives a cloud these scanner positions, in the coordinates of the file, in place of its own; none
-// leave it as it is.
-void use_poses(PointCloud& cloud, const std::vector<Vec3>& poses);
+// Of --poses.
+inline constexpr const char* kPosesHelp =
+    "Scanner positions, one a line: x y z, or t x y z qx qy qz qw; a property scan_index of the "
+    "scan's points counts them from 0";
 
 // Reads a scan, and gives it the scanner positions of a file where its name is not empty.
 PointCloud read_scan_with_poses(const std::vector<std::filesystem::path>& scans,

@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "cli.h"
+#include "error.h"
 #include "exporters/assimp.h"
+#include "fidelity.h"
 #include "scan/read_scan.h"
 #include "world/level.h"
 #include "world/world_json.h"
@@ -29,8 +31,16 @@ Json box_json(const Box3& box, const Vec3& origin) {
           {"size", json_of(box.sizes())}};
 }
 
-Json scan_info(const std::filesystem::path& file) {
-  const PointCloud cloud = read_scan({file});
+// How many points know their viewpoint.
+std::size_t count_knowing(const PointCloud& cloud) {
+  if (!cloud.viewers.empty())
+    return static_cast<std::size_t>(
+        std::ranges::count_if(cloud.viewers, [](std::int32_t v) { return v >= 0; }));
+  return cloud.viewpoints.size() == 1 ? cloud.points.size() : 0;
+}
+
+Json scan_info(const std::filesystem::path& file, const std::filesystem::path& poses) {
+  const PointCloud cloud = read_scan_with_poses({file}, poses);
   Box3 box;
   for (const Vec3f& p : cloud.points) box.extend(p.cast<double>());
   Json viewpoints = Json::array();
@@ -45,6 +55,8 @@ Json scan_info(const std::filesystem::path& file) {
           {"normals", !cloud.normals.empty()},
           {"colors", !cloud.colors.empty()},
           {"viewpoints", viewpoints},
+          {"scan_index", has_scan_index(file)},
+          {"with_viewpoint", count_knowing(cloud)},
           {"camera_image", cloud.camera_frame},
           {"fingerprint", fingerprint(cloud)}};
 }
@@ -109,11 +121,13 @@ std::string as_text(const Json& value) {
   return text.empty() ? "none" : text;
 }
 
-void run(const std::filesystem::path& file, bool json) {
+void run(const std::filesystem::path& file, const std::filesystem::path& poses, bool json) {
+  if (!poses.empty() && kind_of(file) != FileKind::scan)
+    throw Error(Cause::usage, poses.string() + ": --poses goes with a scan");
   Json info;
   switch (kind_of(file)) {
     case FileKind::scan:
-      info = scan_info(file);
+      info = scan_info(file, poses);
       break;
     case FileKind::mesh:
       info = mesh_info(file);
@@ -134,7 +148,7 @@ void run(const std::filesystem::path& file, bool json) {
 
 void add_info(CLI::App& app) {
   struct InfoRequest {
-    std::filesystem::path file;
+    std::filesystem::path file, poses;
     bool json = false;
   };
   auto request = std::make_shared<InfoRequest>();
@@ -142,9 +156,10 @@ void add_info(CLI::App& app) {
   verb->add_option("file", request->file, "A scan, a mesh, a world.json or its folder")
       ->required()
       ->type_name("FILE");
+  verb->add_option("--poses", request->poses, kPosesHelp)->type_name("F");
   verb->add_flag("--json", request->json, "As JSON");
   verb->footer("Example:\n  scanworld info office.ply");
-  verb->callback([request] { run(request->file, request->json); });
+  verb->callback([request] { run(request->file, request->poses, request->json); });
 }
 
 }  // namespace scanworld::cli

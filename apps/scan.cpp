@@ -61,7 +61,10 @@ void run(ScanRequest request) {
     for (const Vec3& pose : read_poses(request.poses))
       request.options.poses.push_back(world.frame.to_world(pose));
   const VirtualScan scan = virtual_scan(world, request.options);
-  write_scan(request.out, scan.cloud);
+  // Indices say something only beside the poses that they count.
+  write_scan(request.out, scan.cloud,
+             request.save_poses.empty() ? std::vector<ExtraColumn>{}
+                                        : std::vector<ExtraColumn>{{kScanIndex, scan.pose}});
   if (request.labels)
     write_scan(labels_path(request.out), scan.cloud,
                {{"plane_id", scan.surface}, {"kind", scan.kind}, {"pose", scan.pose}});
@@ -87,7 +90,10 @@ void add_scan(CLI::App& app) {
                    "Scanner positions, one a line; without: they are chosen so as to see all over "
                    "the floors")
       ->type_name("F");
-  verb->add_option("--save-poses", request->save_poses, "Write the positions that were used")
+  verb->add_option(
+          "--save-poses", request->save_poses,
+          "Write the positions that were used; the points then have their number, from 0, as "
+          "scan_index")
       ->type_name("F");
   verb->add_option("--points", o.points, "Number of points; 0 = as the resolution gives")
       ->capture_default_str();

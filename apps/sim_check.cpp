@@ -101,7 +101,7 @@ void add_places(CLI::App& app, SimCheckRequest& request) {
       ->default_str("y of glTF, else z");
   app.add_option("--scan", request.scans, "Scan to hold lidar and floor against")
       ->type_name("SCAN");
-  app.add_option("--poses", request.poses, "Scanner positions, one a line")->type_name("F");
+  app.add_option("--poses", request.poses, kPosesHelp)->type_name("F");
   app.add_option("--budget", request.budget,
                  "Mean time that a contact test may take in a world: 5us, 0.1ms")
       ->type_name("TIME");

@@ -191,7 +191,7 @@ void add_table5(CLI::App& app) {
       ->required()
       ->type_name("SCAN");
   verb->add_option("-o,--out", request->out, "Folder to write")->required()->type_name("DIR");
-  verb->add_option("--poses", request->poses, "Scanner positions, one a line")->type_name("F");
+  verb->add_option("--poses", request->poses, kPosesHelp)->type_name("F");
   verb->add_option("--nodes", request->baseline.nodes, "Of the dense meshes")
       ->check(CLI::Range(4, 1000000))
       ->capture_default_str();

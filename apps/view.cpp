@@ -188,9 +188,7 @@ void add_view(CLI::App& app) {
   verb->add_option("--cut", request->plan.cut, "Floor plans: height of the cut over the floor [m]")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  verb->add_option("--poses", request->poses,
-                   "Scanner positions, one a line: x y z, or t x y z qx qy qz qw")
-      ->type_name("F");
+  verb->add_option("--poses", request->poses, kPosesHelp)->type_name("F");
   verb->add_option("--points", request->points, "About so many points of the scan are shown")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
       ->capture_default_str();

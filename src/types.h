@@ -95,12 +95,16 @@ struct PointCloud {
   std::vector<Color> colors;     // empty, or one for each point
   Vec3 origin = Vec3::Zero();    // [m] what was subtracted from the coordinates in the file
   std::vector<Vec3> viewpoints;  // scanner positions relative to `origin`, where they are known
+  // Of each point the viewpoint that it was seen from, by its index, or -1 where that is unknown.
+  // One for each point, or empty where it is known of none; a single viewpoint then saw them all.
+  std::vector<std::int32_t> viewers;
   std::vector<std::size_t>
       skipped;  // ascending positions in the input of points left out as not finite
   bool camera_frame =
       false;  // the points are one image of a pinhole camera: x right, y down, z ahead
 
   std::size_t input_size() const { return points.size() + skipped.size(); }
+  std::int32_t viewer_of(std::size_t point) const { return viewers.empty() ? -1 : viewers[point]; }
 };
 
 // An indexed triangle mesh, counter-clockwise seen from outside.

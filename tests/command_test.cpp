@@ -472,6 +472,11 @@ TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
              "--labels", "--save-poses", folder / "p.txt"})
             .code == 0);
   CHECK(read_scan({folder / "s.labels.ply"}).points.size() == 100000);
+  const Json info =
+      Json::parse(run({"info", folder / "s.ply", "--poses", folder / "p.txt", "--json"}).out);
+  CHECK(info["scan_index"] == true);
+  CHECK(info["with_viewpoint"] == 100000);
+  CHECK(contains(run({"info", folder / "s.ply"}).out, "with viewpoint 0"));
   const Outcome outcome =
       run({"build", folder / "s.ply", "--poses", folder / "p.txt", "-o", folder / "w"});
   CHECK_MESSAGE(outcome.code == 0, outcome.err);

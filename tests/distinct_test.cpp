@@ -83,6 +83,24 @@ TEST_CASE("of unlike points at one place the same is kept in any order") {
   }
 }
 
+TEST_CASE("of viewpoints of one place the same is kept in any order of points and of viewpoints") {
+  Random random(4);
+  const std::vector<Vec3> poses = {{3, 0, 1}, {-2, 7, 1}, {-2, 4, 1}};
+  for (int round = 0; round < 20; ++round) {
+    PointCloud scan;
+    std::vector<std::int32_t> order = {0, 1, 2};
+    shuffle(order, random);
+    for (const std::int32_t k : order)
+      scan.viewpoints.push_back(poses[static_cast<std::size_t>(k)]);
+    scan.viewers = {-1, 0, 1, 2, 1, 0};
+    shuffle(scan.viewers, random);
+    scan.points.assign(scan.viewers.size(), {1, 2, 3});
+    const PointCloud kept = *find_distinct(scan).cloud;
+    REQUIRE(kept.viewers.size() == 1);
+    CHECK(kept.viewpoints[static_cast<std::size_t>(kept.viewers[0])] == poses[2]);
+  }
+}
+
 TEST_CASE("a scan with points told any number of times makes the world of the scan itself") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Random random(seed);

@@ -25,6 +25,20 @@ TEST_CASE("what is written as PLY or XYZ reads back the same, bit for bit") {
   }
 }
 
+TEST_CASE("points read back with the poses that they were seen from") {
+  const TempFolder folder;
+  PointCloud cloud = cloud_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
+  cloud.viewpoints = {{0, 0, 1}, {5, 5, 1}};
+  cloud.viewers = {1, -1, 0};
+  for (const char* name : {"scan.ply", "scan.xyz"}) {
+    write_scan(folder / name, cloud);
+    const PointCloud back = read_scan({folder / name}, cloud.viewpoints);
+    CHECK(back.points == cloud.points);
+    CHECK(back.viewpoints == cloud.viewpoints);
+    CHECK(back.viewers == cloud.viewers);
+  }
+}
+
 TEST_CASE("a scan with an origin is written in its own coordinates") {
   const TempFolder folder;
   PointCloud cloud = cloud_of({{1.25, 2.5, 3}, {4, 5, 6}});

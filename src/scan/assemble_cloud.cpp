@@ -109,14 +109,16 @@ Vec3 coarse_median(const RowSource& source, const Vec3& guess) {
   return result;
 }
 
-// The rows of several sources, one after the other.
-RowSource chain(const std::vector<RowSource>& sources) {
+// The rows of several sources, one after the other; with their scan indices if those are wanted and
+// any source has some.
+RowSource chain(const std::vector<RowSource>& sources, bool with_index) {
   RowSource all{.first = {0}, .normals = true, .colors = true};
   std::vector<std::pair<const RowSource*, std::size_t>> parts;
   for (const RowSource& source : sources) {
     all.name += (all.name.empty() ? "" : ", ") + source.name;
     all.normals &= source.normals;
     all.colors &= source.colors;
+    all.scan_index |= with_index && source.scan_index;
     const std::size_t before = all.rows();
     for (std::size_t part = 0; part < source.parts(); ++part) {
       parts.emplace_back(&source, part);
@@ -124,7 +126,7 @@ RowSource chain(const std::vector<RowSource>& sources) {
     }
   }
   // Attributes come with the rows only.
-  const bool all_floats = !all.normals && !all.colors &&
+  const bool all_floats = !all.normals && !all.colors && !all.scan_index &&
                           std::all_of(sources.begin(), sources.end(),
                                       [](const RowSource& s) { return !!s.load_floats; });
   if (sources.size() == 1 && all_floats) all.take_floats = sources[0].take_floats;
@@ -159,9 +161,10 @@ void drop_unset(std::vector<Vec3f>& normals) {
 // Fills a cloud from the rows of all sources.
 class Assembler {
  public:
-  explicit Assembler(const std::vector<RowSource>& sources)
+  Assembler(const std::vector<RowSource>& sources, const std::vector<Vec3>& poses)
       : sources_(sources),
-        source_(chain(sources)),
+        poses_(poses),
+        source_(chain(sources, !poses.empty())),
         first_(first_point()),
         skipped_(source_.parts()),
         reach_(source_.parts()) {}
@@ -172,12 +175,14 @@ class Assembler {
     if (begins_far() || reaches_far()) move_origin();
     for (const auto& s : skipped_) cloud_.skipped.insert(cloud_.skipped.end(), s.begin(), s.end());
     if (cloud_.skipped.size() == source_.rows()) fail_without_points();
-    if (!cloud_.skipped.empty())
+    note_viewpoints();
+    if (!cloud_.skipped.empty()) {
       close_gaps(cloud_.points), close_gaps(cloud_.normals), close_gaps(cloud_.colors);
+      close_gaps(cloud_.viewers);
+    }
     drop_unset(cloud_.normals);
-    for (const RowSource& each : sources_)
-      for (const Vec3& viewpoint : each.viewpoints)
-        cloud_.viewpoints.push_back(viewpoint - cloud_.origin);
+    if (std::ranges::all_of(cloud_.viewers, [](std::int32_t v) { return v < 0; }))
+      cloud_.viewers = {};
     return std::move(cloud_);
   }
 
@@ -223,6 +228,7 @@ class Assembler {
     cloud_.points.resize(source_.rows());
     if (source_.normals) cloud_.normals.resize(source_.rows());
     if (source_.colors) cloud_.colors.resize(source_.rows());
+    if (source_.scan_index) cloud_.viewers.assign(source_.rows(), -1);
     for_each_part(source_, [&](std::size_t part, const RowsView& rows) {
       const std::size_t first = source_.first[part];
       for (std::size_t i = 0; i < rows.points.size(); ++i)
@@ -231,8 +237,34 @@ class Assembler {
         std::copy(rows.normals.begin(), rows.normals.end(), cloud_.normals.data() + first);
       if (source_.colors)
         std::copy(rows.colors.begin(), rows.colors.end(), cloud_.colors.data() + first);
+      if (source_.scan_index) take_indices(part, rows);
       look_at(part);
     });
+  }
+
+  // Notes which poses a part's points were seen from.
+  void take_indices(std::size_t part, const RowsView& rows) {
+    for (std::size_t i = 0; i < rows.scan_index.size(); ++i) {
+      const double index = rows.scan_index[i];
+      if (!(index >= 0) || !rows.points[i].allFinite()) continue;
+      const std::size_t row = source_.first[part] + i;
+      if (index != std::floor(index) || index >= static_cast<double>(poses_.size()))
+        fail_at_index(row, index);
+      cloud_.viewers[row] = static_cast<std::int32_t>(index);
+    }
+  }
+
+  void note_viewpoints() {
+    for (const Vec3& pose : poses_) cloud_.viewpoints.push_back(pose - cloud_.origin);
+    if (!poses_.empty()) return;
+    for (const RowSource& each : sources_) {
+      // A file with several does not tell which of them saw a point.
+      const std::int32_t viewer =
+          each.viewpoints.size() == 1 ? static_cast<std::int32_t>(cloud_.viewpoints.size()) : -1;
+      if (sources_.size() > 1) cloud_.viewers.insert(cloud_.viewers.end(), each.rows(), viewer);
+      for (const Vec3& viewpoint : each.viewpoints)
+        cloud_.viewpoints.push_back(viewpoint - cloud_.origin);
+    }
   }
 
   // Notes which of a part's points are not finite, and how far from zero the others go.
@@ -247,6 +279,15 @@ class Assembler {
         skipped_[part].push_back(i);
     }
     reach_[part] = far.maxCoeff();
+  }
+
+  [[noreturn]] void fail_at_index(std::size_t row, double index) const {
+    auto source = sources_.begin();
+    for (; row >= source->rows(); ++source) row -= source->rows();
+    throw Error(Cause::bad_input,
+                fmt::format("{}: the scan_index of point {} (from 0) is {}, but the poses are 0 to "
+                            "{}",
+                            source->name, row, index, poses_.size() - 1));
   }
 
   [[noreturn]] void fail_without_points() const {
@@ -271,6 +312,7 @@ class Assembler {
   }
 
   const std::vector<RowSource>& sources_;
+  const std::vector<Vec3>& poses_;
   const RowSource source_;
   const Vec3 first_;
   PointCloud cloud_;
@@ -280,8 +322,8 @@ class Assembler {
 
 }  // namespace
 
-PointCloud assemble_cloud(const std::vector<RowSource>& sources) {
-  return Assembler(sources).run();
+PointCloud assemble_cloud(const std::vector<RowSource>& sources, const std::vector<Vec3>& poses) {
+  return Assembler(sources, poses).run();
 }
 
 }  // namespace scanworld

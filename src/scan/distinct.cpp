@@ -72,6 +72,14 @@ bool is_before(const PointCloud& scan, std::uint32_t a, std::uint32_t b) {
     const Color &c = scan.colors[a], &d = scan.colors[b];
     if (c != d) return std::tie(c.r, c.g, c.b) < std::tie(d.r, d.g, d.b);
   }
+  if (const std::int32_t v = scan.viewer_of(a), w = scan.viewer_of(b); v != w) {
+    if (v < 0 || w < 0) return v > w;
+    const Vec3 &p = scan.viewpoints[static_cast<std::size_t>(v)],
+               &q = scan.viewpoints[static_cast<std::size_t>(w)];
+    // By place, as indices change with the order of files.
+    if (p != q) return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    return v < w;
+  }
   return a < b;
 }
 
@@ -160,6 +168,7 @@ DistinctPoints find_distinct(const PointCloud& scan) {
                             kept_of(scan.colors, place),
                             scan.origin,
                             scan.viewpoints,
+                            kept_of(scan.viewers, place),
                             scan.skipped,
                             scan.camera_frame};
   std::vector<std::uint32_t> number(place.size());

@@ -28,7 +28,7 @@ inline std::size_t count_of(const DistinctPoints& points) {
 }
 
 // Of points at one place that are unlike, the one with the least normal, then colour, is kept,
-// whatever their order.
+// whatever their order; then one whose viewpoint is known, and the one whose is least.
 DistinctPoints find_distinct(const PointCloud& scan);
 
 }  // namespace scanworld

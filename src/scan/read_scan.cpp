@@ -46,14 +46,17 @@ RowSource open_scan(const std::filesystem::path& path) {
   return open_xyz(path);
 }
 
-PointCloud read_scan(const std::vector<std::filesystem::path>& paths) {
+PointCloud read_scan(const std::vector<std::filesystem::path>& paths,
+                     const std::vector<Vec3>& poses) {
   std::vector<RowSource> sources;
   for (const auto& path : paths) sources.push_back(open_scan(path));
-  PointCloud cloud = assemble_cloud(sources);
+  PointCloud cloud = assemble_cloud(sources, poses);
   cloud.camera_frame = sources.size() == 1 && sources[0].image_width > 0 &&
                        is_camera_image(cloud, sources[0].image_width);
   return cloud;
 }
+
+bool has_scan_index(const std::filesystem::path& path) { return open_scan(path).scan_index; }
 
 std::vector<Vec3> read_poses(const std::filesystem::path& path) {
   LineReader lines(path);

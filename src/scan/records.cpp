@@ -97,6 +97,10 @@ void decode(const Field& field, const char* first, std::size_t count, bool swap,
       return each_value<std::uint32_t>(
           first, field.stride, count, swap,
           [&](std::size_t i, std::uint32_t v) { rows.colors[i] = unpack_rgb(v); });
+    case Role::scan_index:
+      return each_value(field, first, count, swap, [&](std::size_t i, auto v) {
+        rows.scan_index[i] = static_cast<double>(v);
+      });
   }
 }
 
@@ -122,18 +126,20 @@ RowSource make_source(const std::string& name, const RecordLayout& layout, Bytes
     source.normals |= field.role == Role::nx;
     source.colors |= field.role == Role::red || field.role == Role::packed_rgb ||
                      field.role == Role::packed_rgb_float;
+    source.scan_index |= field.role == Role::scan_index;
   }
   const bool swap = layout.big_endian != (std::endian::native == std::endian::big);
-  source.load = [layout, bytes, swap, normals = source.normals, colors = source.colors](
-                    std::size_t i, Rows& rows) -> RowsView {
+  source.load = [layout, bytes, swap, normals = source.normals, colors = source.colors,
+                 indices = source.scan_index](std::size_t i, Rows& rows) -> RowsView {
     const Part part = part_of(i, layout.count, kPartRows);
     const std::size_t count = part.end - part.begin;
     rows.points.resize(count);
     rows.normals.assign(normals ? count : 0, Vec3f::Zero());
     rows.colors.resize(colors ? count : 0);
+    rows.scan_index.resize(indices ? count : 0);
     const auto first_byte = bytes(part);
     for (const Field& field : layout.fields) decode(field, first_byte(field), count, swap, rows);
-    return {rows.points, rows.normals, rows.colors};
+    return {rows.points, rows.normals, rows.colors, rows.scan_index};
   };
   return source;
 }

@@ -19,6 +19,7 @@ void Rows::clear() {
   near_points.clear();
   normals.clear();
   colors.clear();
+  scan_index.clear();
 }
 
 void Rows::widen() {
@@ -36,13 +37,14 @@ void Rows::append(const Rows& more) {
   }
   normals.insert(normals.end(), more.normals.begin(), more.normals.end());
   colors.insert(colors.end(), more.colors.begin(), more.colors.end());
+  scan_index.insert(scan_index.end(), more.scan_index.begin(), more.scan_index.end());
 }
 
 void Rows::resize(std::size_t rows) {
   const auto cut = [&](auto& values) {
     if (values.size() > rows) values.resize(rows);
   };
-  cut(points), cut(near_points), cut(normals), cut(colors);
+  cut(points), cut(near_points), cut(normals), cut(colors), cut(scan_index);
 }
 
 Role role_of(std::string name) {
@@ -67,6 +69,7 @@ Role role_of(std::string name) {
       {"diffuse_blue", Role::blue},
       {"rgb", Role::packed_rgb},
       {"rgba", Role::packed_rgb},
+      {"scan_index", Role::scan_index},
   };
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -101,8 +104,11 @@ Color unpack_rgb(std::uint32_t rgb) {
 
 RowSource rows_in_memory(const std::string& name, Rows all) {
   constexpr std::size_t kPartRows = 1 << 15;
-  RowSource source{
-      .name = name, .first = {0}, .normals = !all.normals.empty(), .colors = !all.colors.empty()};
+  RowSource source{.name = name,
+                   .first = {0},
+                   .normals = !all.normals.empty(),
+                   .colors = !all.colors.empty(),
+                   .scan_index = !all.scan_index.empty()};
   for (std::size_t i = 0; i < part_count(all.size(), kPartRows); ++i)
     source.first.push_back(part_of(i, all.size(), kPartRows).end);
   const auto held = std::make_shared<Rows>(std::move(all));
@@ -118,7 +124,8 @@ RowSource rows_in_memory(const std::string& name, Rows all) {
       return std::span(values).subspan(values.empty() ? 0 : first[part],
                                        values.empty() ? 0 : first[part + 1] - first[part]);
     };
-    RowsView view{slice(held->points), slice(held->normals), slice(held->colors)};
+    RowsView view{slice(held->points), slice(held->normals), slice(held->colors),
+                  slice(held->scan_index)};
     if (held->points.empty()) {
       scratch.points.clear();
       for (const Vec3f& p : slice(held->near_points)) scratch.points.push_back(p.cast<double>());

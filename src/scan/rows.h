@@ -17,10 +17,24 @@ namespace scanworld {
 
 // What a column of a scan file holds. The packed colour is 0x00RRGGBB, as a number or as a float's
 // bits.
-enum class Role { none, x, y, z, nx, ny, nz, red, green, blue, packed_rgb, packed_rgb_float };
+enum class Role {
+  none,
+  x,
+  y,
+  z,
+  nx,
+  ny,
+  nz,
+  red,
+  green,
+  blue,
+  packed_rgb,
+  packed_rgb_float,
+  scan_index
+};
 
-// The role that a column's name tells, in any case: x, normal_y, red, diffuse_red, rgb ...; none
-// for others.
+// The role that a column's name tells, in any case: x, normal_y, red, diffuse_red, rgb, scan_index
+// ...; none for others.
 Role role_of(std::string name);
 
 // Keeps of the roles what can be used: the first of each kind, normals and colours only where all
@@ -42,6 +56,7 @@ struct Rows {
   std::vector<Vec3f> near_points;  // in the place of `points` where all are near the origin
   std::vector<Vec3f> normals;      // empty, or one a row
   std::vector<Color> colors;       // empty, or one a row
+  std::vector<double> scan_index;  // empty, or one a row
 
   std::size_t size() const { return std::max(points.size(), near_points.size()); }
   void clear();  // keeps the memory
@@ -55,6 +70,7 @@ struct RowsView {
   std::span<const Vec3> points;
   std::span<const Vec3f> normals;
   std::span<const Color> colors;
+  std::span<const double> scan_index;
 };
 
 // The rows of a scan file in parts that can be had in any order, more than once, from several
@@ -65,7 +81,7 @@ struct RowSource {
   std::uint64_t image_width = 0;  // where the rows are the pixels of an image, line by line; else 0
   std::vector<std::size_t>
       first;  // position of each part's first row; one more entry: the number of rows
-  bool normals = false, colors = false;
+  bool normals = false, colors = false, scan_index = false;
   // Returns the part's rows: in `scratch`, or where it holds them already.
   std::function<RowsView(std::size_t part, Rows& scratch)> load;
   // Where all coordinates are floats already: puts the part's points where they belong, without

@@ -121,6 +121,7 @@ class RowWriter {
       if (role >= Role::red && role <= Role::blue) color_[at(role, Role::red)] = i, colors_ = true;
       if (role == Role::packed_rgb || role == Role::packed_rgb_float)
         packed_ = i, is_packed_ = true, packed_float_ = role == Role::packed_rgb_float;
+      if (role == Role::scan_index) index_ = i, indices_ = true;
     }
   }
 
@@ -133,6 +134,7 @@ class RowWriter {
       rows_.colors.push_back(
           {channel(values[color_[0]]), channel(values[color_[1]]), channel(values[color_[2]])});
     if (is_packed_) rows_.colors.push_back(unpack_rgb(packed_bits(values[packed_])));
+    if (indices_) rows_.scan_index.push_back(values[index_]);
   }
 
  private:
@@ -166,8 +168,9 @@ class RowWriter {
   }
 
   Rows& rows_;
-  std::size_t point_[3] = {}, normal_[3] = {}, color_[3] = {}, packed_ = 0;
-  bool normals_ = false, colors_ = false, is_packed_ = false, packed_float_ = false;
+  std::size_t point_[3] = {}, normal_[3] = {}, color_[3] = {}, packed_ = 0, index_ = 0;
+  bool normals_ = false, colors_ = false, is_packed_ = false, packed_float_ = false,
+       indices_ = false;
 };
 
 class BlockParser {

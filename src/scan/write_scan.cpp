@@ -107,7 +107,9 @@ void write_xyz(const std::filesystem::path& path, const PointCloud& cloud,
 }  // namespace
 
 void write_scan(const std::filesystem::path& path, const PointCloud& cloud,
-                const std::vector<ExtraColumn>& extra) {
+                const std::vector<ExtraColumn>& more) {
+  std::vector<ExtraColumn> extra = more;
+  if (!cloud.viewers.empty()) extra.push_back({kScanIndex, cloud.viewers});
   const std::string extension = lower_extension(path);
   if (extension == ".ply") return write_ply(path, cloud, extra);
   if (extension == ".xyz" || extension == ".txt") return write_xyz(path, cloud, extra);

@@ -17,9 +17,13 @@ struct ExtraColumn {
   std::vector<std::int32_t> values;  // one for each point
 };
 
+// The column that counts the poses that points were seen from.
+inline constexpr const char* kScanIndex = "scan_index";
+
 // Writes a scan as PLY (binary, little-endian; coordinates as float, or double where the cloud has
-// an origin) or as XYZ text (extension .xyz or .txt), with normals and colours where the cloud has
-// them. Throws failure where the file cannot be written, usage where the extension is another.
+// an origin) or as XYZ text (extension .xyz or .txt), with normals, colours and viewers (as
+// scan_index) where the cloud has them. Throws failure where the file cannot be written, usage
+// where the extension is another.
 void write_scan(const std::filesystem::path& path, const PointCloud& cloud,
                 const std::vector<ExtraColumn>& extra = {});
 

@@ -42,8 +42,9 @@ PointCloud cloud_of(const std::vector<Vec3>& points) {
 }
 
 void shuffle_points(PointCloud& cloud, std::uint64_t seed) {
-  Random random(seed);
+  Random random(seed), again(seed);
   shuffle(cloud.points, random);
+  shuffle(cloud.viewers, again);
 }
 
 FoundSurface level_rectangle(double x0, double y0, double x1, double y1, double height) {

@@ -19,7 +19,7 @@ void add_rectangle(PointCloud& cloud, const Vec3& corner, const Vec3& a, const V
 PointCloud room_points(const Vec3& size, double spacing, double noise, std::uint64_t seed = 1);
 
 PointCloud cloud_of(const std::vector<Vec3>& points);
-void shuffle_points(PointCloud& cloud, std::uint64_t seed);
+void shuffle_points(PointCloud& cloud, std::uint64_t seed);  // and their viewers
 
 // A level rectangle seen from above, and an upright one over a line on the floor, seen from its
 // left.
