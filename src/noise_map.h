@@ -13,8 +13,9 @@ namespace scanworld {
 // What the points of a small square of a surface are off a plane of their own.
 struct NoiseSample {
   Vec3 at = Vec3::Zero(), normal = Vec3::UnitZ();
-  double noise = 0;  // [m] standard deviation
-  double area = 0;   // [m2]
+  double noise = 0;          // [m] standard deviation
+  double area = 0;           // [m2]
+  std::int32_t viewer = -1;  // the viewpoint that most of it was seen from, where that is known
 };
 
 // The noise of a scan from place to place: it is along the ray, so that surfaces seen square-on
@@ -62,7 +63,8 @@ struct NoiseModel {
 NoiseModel describe_noise(std::span<const NoiseSample> samples, std::span<const Vec3> viewpoints);
 
 // By ranges that double, from 1 m, and by incidence in thirds of a right angle; a surface counts as
-// seen from the viewpoint nearest to it. None where no viewpoints are known.
+// seen from its own viewpoint, or where that is not known from the nearest one. None where no
+// viewpoints are known.
 std::vector<NoiseAtRange> noise_by_range(std::span<const NoiseSample> samples,
                                          std::span<const Vec3> viewpoints);
 

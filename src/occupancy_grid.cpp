@@ -81,7 +81,9 @@ void find_viewers(std::vector<SeenCell>& cells, const PointCloud& cloud,
     codes.push_back(cell.code);
     if (cell.points > 1) opaque.insert(cell.code);  // a single point may be a stray
   }
-  const auto viewers = find_viewers(codes, cloud.viewpoints, grid.options.resolution, opaque);
+  const double edge = grid.options.resolution;
+  const auto viewers =
+      find_viewers(codes, cloud.viewpoints, edge, opaque, own_viewers(cloud, codes, edge));
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i].viewer = viewers[i];
 }
 

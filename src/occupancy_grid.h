@@ -72,10 +72,11 @@ struct OccupancyGrid {
 };
 
 // The grid of a scan, in its coordinates as stored. Every point is a hit in its cell. All cells on
-// the way from a viewpoint to the middle of a cell with points that it saw were looked through. Of
-// many viewpoints that is the nearest one, of the four nearest, that no other cell with points
-// hides it from, beyond those that it adjoins; where there is none, as with strays behind walls,
-// none. Without viewpoints there are only hits.
+// the way from a viewpoint to the middle of a cell with points that it saw were looked through.
+// That is the one that most of its points know to have been seen from; else of many the nearest
+// one, of the four nearest, that no other cell with points hides it from, beyond those that it
+// adjoins; where there is none, as with strays behind walls, none. Without viewpoints there are
+// only hits.
 //
 // OctoMap adds up scan by scan and bounds each sum, which depends on their order; here sums of
 // whole counts are bounded once. A viewpoint counts once a cell, however many of its rays pass

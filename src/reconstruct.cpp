@@ -125,7 +125,13 @@ surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clus
                                       const std::vector<std::int32_t>& plane_of_cluster) {
   std::vector<Vec3f> sites;
   for (const rival::Site& site : grid.sites) sites.push_back(site.mean);
-  return surface::surroundings_of(std::move(sites), labels_by(plane_of_cluster, clusters.label));
+  surface::Surroundings around =
+      surface::surroundings_of(std::move(sites), labels_by(plane_of_cluster, clusters.label));
+  around.viewers = grid.viewers;
+  // No ray need have met a stray: a point alone and of no plane.
+  for (std::size_t i = 0; i < around.viewers.size(); ++i)
+    if (grid.sites[i].points == 1 && around.planes[i] < 0) around.viewers[i] = -1;
+  return around;
 }
 
 // What planes say about up, by the number of their points.
@@ -179,13 +185,14 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
   std::optional<PatchRays> rays;
   Vec3 up;
   std::vector<Vec3> viewpoints;
+  std::vector<std::int32_t> number;  // of each of the cloud's viewpoints, among those
   std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
     members = group_points(result.labels, planes.size());
     up = find_frame(cloud, facings_of(planes, members)).up;
     std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
     rays.emplace(found);
     Faced faced = face_free_side(std::move(found), *rays, cloud, members, up, options.facing);
-    viewpoints = std::move(faced.viewpoints);
+    viewpoints = std::move(faced.viewpoints), number = std::move(faced.number);
     return std::move(faced.patches);
   });
   if (const std::size_t blind = cloud.viewpoints.size() - viewpoints.size(); blind > 0)
@@ -200,6 +207,7 @@ Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
   patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
     around = find_around();
     around.viewpoints = viewpoints;
+    around.viewers = labels_by(number, std::move(around.viewers));
     around.viewers = find_sole_viewers(around, *rays, viewpoints, options.gaps.through);
     rays.reset();
     return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
@@ -252,7 +260,8 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     return fit_locally(grid, neighbors, scale, options.local);
   });
   grid = log.run("Parting sides", "sites -> sites", grid, [&] {
-    return part_sides(cloud, std::move(grid), neighbors, local, scale, options.sides);
+    return with_viewers(cloud,
+                        part_sides(cloud, std::move(grid), neighbors, local, scale, options.sides));
   });
   local = log.run("Fitting sides", "sites -> sites", grid, [&] {
     std::vector<std::uint8_t> changed;
@@ -322,7 +331,7 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   });
   local = {};
   scale.local = log.run("Mapping noise", "clusters -> places", clusters, [&] {
-    const std::vector<NoiseSample> samples = sample_noise(grid, clusters);
+    const std::vector<NoiseSample> samples = sample_noise(grid, clusters, cloud.viewpoints);
     result.report.noise_model = describe_noise(samples, cloud.viewpoints);
     return map_noise(grid, scale, samples);
   });
@@ -427,7 +436,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
     std::vector<Opening> openings = find_openings(world, sight_lines_of(found.around, place));
     std::vector<Vec3> viewpoints;
     for (const Vec3& v : found.around.viewpoints) viewpoints.push_back(place.to_world(v));
-    return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints);
+    return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints,
+                      cloud.viewers.empty() ? std::vector<std::int32_t>{} : found.around.viewers);
   });
   add_curves(found.curves, world);
   NoiseMap noise = std::move(found.noise);

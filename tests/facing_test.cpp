@@ -28,6 +28,23 @@ TEST_CASE("the viewpoint that counts is one with a free line, not the nearest on
   CHECK(patches[1].plane.normal.y() == doctest::Approx(1));
 }
 
+TEST_CASE("a wall faces the viewpoint that saw its points, though another one is nearer") {
+  for (double side : {1.0, -1.0}) {
+    LabelledScan scan;
+    scan.add({0, 0, 0}, {4, 0, 0}, {0, 0, 2.5});
+    scan.cloud.viewpoints = {Vec3(2, 5 * side, 1), Vec3(2, -1 * side, 1)};
+    CHECK(scan.patches()[0].plane.normal.y() == doctest::Approx(-side));  // guessed wrongly
+    scan.cloud.viewers.assign(scan.cloud.points.size(), 0);
+    CHECK(scan.patches()[0].plane.normal.y() == doctest::Approx(side));
+    // A few that know say nothing, nor do sides that are as many.
+    std::fill(scan.cloud.viewers.begin() + 50, scan.cloud.viewers.end(), -1);
+    CHECK(scan.patches()[0].plane.normal.y() == doctest::Approx(-side));
+    for (std::size_t i = 0; i < scan.cloud.viewers.size(); ++i)
+      scan.cloud.viewers[i] = static_cast<std::int32_t>(i % 2);
+    CHECK(scan.patches()[0].plane.normal.y() == doctest::Approx(-side));
+  }
+}
+
 TEST_CASE("without viewpoints the faces of rooms, walls, boards and boxes look out of them") {
   LabelledScan scan;
   struct Face {

@@ -62,3 +62,12 @@ TEST_CASE("a window that no viewpoint looks at tells nothing, nor does a door") 
   world.openings[0].kind = OpeningKind::door;
   CHECK_FALSE(flag_glass(world, world.openings, places_with(0.5), {})[0].glass);
 }
+
+TEST_CASE("what is behind a window counts along its own line of sight") {
+  const World world = wall_with_window();
+  const std::vector<Vec3> places = places_with(0.05), viewpoints = {{2.6, 3, 1.5}, {2.6, -1, 1.5}};
+  std::vector<std::int32_t> viewers(places.size(), 0);
+  CHECK_FALSE(flag_glass(world, world.openings, places, viewpoints, viewers)[0].glass);
+  viewers.assign(places.size(), 1);  // from behind the wall, nothing is seen through it
+  CHECK(flag_glass(world, world.openings, places, viewpoints, viewers)[0].glass);
+}

@@ -111,3 +111,15 @@ TEST_CASE("a map of noise holds medians of what is around, between its bounds") 
   CHECK(NoiseMap().at({0, 0, 0}) == 0);
   CHECK(noise_by_range(samples, {}).empty());
 }
+
+TEST_CASE("the range of noise is that of the viewpoint that saw it, where it is known") {
+  const std::vector<Vec3> viewpoints = {{0.5, 0, 0}, {5, 0, 0}};
+  const auto range_for = [&](std::int32_t viewer) {
+    const std::vector<NoiseSample> samples = {
+        {.normal = Vec3::UnitX(), .noise = 0.01, .area = 1, .viewer = viewer}};
+    return noise_by_range(samples, viewpoints)[0].max_range;
+  };
+  CHECK(range_for(-1) == 1);
+  CHECK(range_for(0) == 1);
+  CHECK(range_for(1) == 8);
+}

@@ -66,6 +66,30 @@ TEST_CASE("a ray makes the cells that it passes freer and the one that it ends i
   CHECK(probability_at(grid, {1e9, 0, 0}) == 0.5);
 }
 
+TEST_CASE("a cell was seen by the viewpoint that most of its points know, not by the nearest") {
+  PointCloud cloud = cloud_of({{2.05, 0.05, 0.05}, {2.04, 0.05, 0.05}, {2.03, 0.05, 0.05}});
+  cloud.viewpoints = {{0.05, 0.05, 0.05}, {2.05, 1.05, 0.05}};
+  const auto is_through = [&](const Vec3& p) {
+    return probability_at(make_occupancy_grid(cloud, kTenth), p) < 0.5;
+  };
+  CHECK_FALSE(is_through({1.05, 0.05, 0.05}));
+  CHECK(is_through({2.05, 0.55, 0.05}));
+  cloud.viewers = {0, 1, 0};
+  CHECK(is_through({1.05, 0.05, 0.05}));
+  CHECK_FALSE(is_through({2.05, 0.55, 0.05}));
+}
+
+TEST_CASE("a single viewpoint has not seen what others are known to have not") {
+  PointCloud cloud = cloud_of({{2.05, 0.05, 0.05}, {3.05, 0.05, 0.05}, {3.04, 0.05, 0.05}});
+  cloud.viewpoints = {{0.05, 0.05, 0.05}};
+  cloud.viewers = {0, -1, -1};
+  cloud.points.push_back({2.04f, 0.05f, 0.05f});
+  cloud.viewers.push_back(0);
+  const OccupancyGrid grid = make_occupancy_grid(cloud, kTenth);
+  CHECK(probability_at(grid, {1.05, 0.05, 0.05}) < 0.5);
+  CHECK(probability_at(grid, {2.55, 0.05, 0.05}) == 0.5);  // hidden behind the first
+}
+
 TEST_CASE("a walk goes from neighbour to neighbour, along the line, to the cell before the last") {
   Random random(4);
   for (int i = 0; i < 2000; ++i) {

@@ -166,6 +166,34 @@ TEST_CASE("the world's text is the same for any threads, order, files and strays
   CHECK(world_text(reconstruct(cloud).world) == before);
 }
 
+TEST_CASE("with points that know their viewpoint the text is the same for any order and files") {
+  PointCloud cloud = room_points({4, 3, 2.5}, 0.03, 0.005);
+  cloud.viewpoints = {{1, 1, 1.5}, {3, 2, 1.5}, {2, 5, 1.5}};
+  Random random(6);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    cloud.viewers.push_back(random.whole(-1, 1));
+  const std::string before = world_text(reconstruct(cloud).world);
+  shuffle_points(cloud, 1);
+  for (int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    CHECK(world_text(reconstruct(cloud).world) == before);
+  }
+  const TempFolder folder;
+  std::vector<std::filesystem::path> files;
+  for (std::size_t k = 0; k < 2; ++k) {
+    PointCloud part;
+    for (std::size_t i = k; i < cloud.points.size(); i += 2) {
+      part.points.push_back(cloud.points[i]);
+      part.viewers.push_back(cloud.viewers[i]);
+    }
+    files.push_back(folder / ("part" + std::to_string(k) + ".ply"));
+    write_scan(files.back(), part);
+  }
+  CHECK(world_text(reconstruct(read_scan(files, cloud.viewpoints)).world) == before);
+  std::swap(files[0], files[1]);
+  CHECK(world_text(reconstruct(read_scan(files, cloud.viewpoints)).world) == before);
+}
+
 TEST_CASE("coordinates of thousands of kilometres give the same room there") {
   const PointCloud cloud = room_points({5, 4, 2.7}, 0.04, 0.005);
   const TempFolder folder;

@@ -48,6 +48,19 @@ TEST_CASE("a place that two viewpoints may have seen proves nothing, nor do unkn
   }
 }
 
+TEST_CASE("a place that knows its viewpoint proves a gap, where two may have seen it") {
+  LabelledScan scan = hidden_gap();
+  const Patch wall = scan.patches()[0];
+  scan.cloud.viewpoints = {{1.5, 3, 1.5}, {1.5, -1, 1.5}};
+  const auto is_through = [&](std::int32_t viewer) {
+    scan.cloud.viewers.assign(scan.cloud.points.size(), viewer);
+    return seen_through(wall, scan.surroundings()).is_set(wall.frame.to_plane({1.5, 0, 1.5}));
+  };
+  CHECK(is_through(0));
+  CHECK_FALSE(is_through(1));
+  CHECK_FALSE(is_through(-1));
+}
+
 TEST_CASE("of viewpoints in different rooms the one in the room has seen a place") {
   LabelledScan scan;
   scan.add({0, 0, 0}, {0, 0, 2.5}, {3, 0, 0});

@@ -73,3 +73,11 @@ TEST_CASE("a point beyond the wall of the nearest viewpoint was seen from anothe
   // No viewpoint sees a point that is beyond the wall for all of them.
   CHECK(follow({{{0, -1, 1}, {}}}, {{0, 0.5, 1}, {1, 3, 1}, {-1, 3, 2}}).violations.size() == 1);
 }
+
+TEST_CASE("the ray of a point comes from its own viewpoint, not from one that sees it as well") {
+  const std::vector<Vec3> viewpoints = {{0, 0.5, 1}, {0, -3, 1}};
+  CHECK(follow({{{0, -1, 1}, {}, 1}}, viewpoints).violations.empty());
+  const SightLines seen = follow({{{0, -1, 1}, {}, 0}}, viewpoints);
+  REQUIRE(seen.violations.size() == 1);
+  CHECK((seen.violations[0].from - viewpoints[0]).norm() < 1e-9);
+}

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../parallel.h"
+#include "../viewers.h"
 
 namespace scanworld::rival {
 
@@ -336,6 +337,21 @@ void part_site(const PointCloud& cloud, std::uint32_t i, const Plane& between, G
   grid.sites.push_back(more_before ? behind : before);
   grid.twin.push_back(-1);
   grid.separator.push_back(grid.separator[i]);
+}
+
+Grid with_viewers(const PointCloud& cloud, Grid grid) {
+  if (cloud.viewers.empty()) return grid;
+  grid.viewers.resize(grid.sites.size());
+  parallel_for(part_count(grid.sites.size(), kSitesPerPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, grid.sites.size(), kSitesPerPart);
+    std::vector<std::int32_t> viewers;
+    for (std::size_t i = begin; i < end; ++i) {
+      viewers.clear();
+      for (const std::uint32_t p : grid.points_of(i)) viewers.push_back(cloud.viewers[p]);
+      grid.viewers[i] = main_viewer(viewers, cloud.viewpoints, grid.sites[i].position());
+    }
+  });
+  return grid;
 }
 
 }  // namespace scanworld::rival

@@ -53,6 +53,9 @@ struct Grid {
   // the other side. Sites of other sides come after all others. Empty where there are none.
   std::vector<std::int32_t> separator, twin;  // index or -1, for each site
   std::vector<Plane> separators;
+  // Of each site the viewpoint that most of its points were seen from, by its index or -1; empty
+  // where none is known.
+  std::vector<std::int32_t> viewers;
 
   std::span<const std::uint32_t> points_of(std::size_t site) const {
     return {points.data() + sites[site].first, sites[site].points};
@@ -74,6 +77,9 @@ Grid build_grid(const PointCloud& cloud, double voxel);
 // Notes the plane between the two sides of a wall that are around a site; where the site's own
 // points are on both, the fewer become a new site.
 void part_site(const PointCloud& cloud, std::uint32_t site, const Plane& between, Grid& grid);
+
+// Fills in the sites' viewers.
+Grid with_viewers(const PointCloud& cloud, Grid grid);
 
 // The bits y << 3 | x of a word with x and y in these ranges, where any are.
 inline std::uint64_t rectangle_mask(int x0, int x1, int y0, int y1) {

@@ -166,34 +166,64 @@ std::map<std::size_t, Sight> sights_of(const Patch& patch, const PatchRays& rays
   return sights;
 }
 
-// The viewpoints, but for those that see patches from behind for the most part.
-std::vector<Vec3> find_seeing(const Turned& turned, const PatchRays& rays,
-                              const std::vector<Vec3>& viewpoints, const FacingOptions& options) {
+// How many of a patch's points each viewpoint is known to have seen. One about in its plane tells
+// no side.
+std::map<std::size_t, Sight> own_sights_of(const Patch& patch, const PointCloud& cloud,
+                                           std::span<const std::uint32_t> members,
+                                           const FacingOptions& options) {
+  std::map<std::size_t, Sight> sights;
+  if (cloud.viewers.empty()) return sights;
+  std::vector<int> points(cloud.viewpoints.size());
+  for (const std::uint32_t i : members)
+    if (const std::int32_t v = cloud.viewers[i]; v >= 0) ++points[static_cast<std::size_t>(v)];
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const double distance = patch.plane.signed_distance(cloud.viewpoints[v]);
+    if (points[v] == 0 || std::abs(distance) < options.margin) continue;
+    (distance > 0 ? sights[v].before : sights[v].behind) = points[v];
+  }
+  return sights;
+}
+
+// Notes the viewpoints, but for those that see patches from behind for the most part.
+void find_seeing(const Turned& turned, const PatchRays& rays, const PointCloud& cloud,
+                 const Members& members, const FacingOptions& options, Faced& faced) {
   std::vector<std::map<std::size_t, Sight>> sights(turned.patches.size());
   parallel_for(turned.patches.size(), [&](std::size_t k) {
-    if (turned.is_sure[k]) sights[k] = sights_of(turned.patches[k], rays, viewpoints, options);
+    if (!turned.is_sure[k]) return;
+    sights[k] = own_sights_of(turned.patches[k], cloud, members.of(k), options);
+    if (sights[k].empty())
+      sights[k] = sights_of(turned.patches[k], rays, cloud.viewpoints, options);
   });
-  std::vector<Sight> sums(viewpoints.size());
+  std::vector<Sight> sums(cloud.viewpoints.size());
   for (const auto& of_patch : sights)
     for (const auto& [v, sight] : of_patch)
       sums[v].before += sight.before, sums[v].behind += sight.behind;
-  std::vector<Vec3> seeing;
-  for (std::size_t v = 0; v < viewpoints.size(); ++v)
-    if (sums[v].behind <= options.max_behind * sums[v].before) seeing.push_back(viewpoints[v]);
-  return seeing;
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const bool is_seeing = sums[v].behind <= options.max_behind * sums[v].before;
+    faced.number.push_back(is_seeing ? static_cast<std::int32_t>(faced.viewpoints.size()) : -1);
+    if (is_seeing) faced.viewpoints.push_back(cloud.viewpoints[v]);
+  }
 }
 
-std::vector<Patch> face_viewpoints(std::vector<Patch> patches, const PatchRays& rays,
-                                   const std::vector<Vec3>& viewpoints,
-                                   const FacingOptions& options) {
-  parallel_for(patches.size(), [&](std::size_t k) {
-    int votes = 0;
-    for (const Vec3& place : places_on(patches[k], options.places))
-      for (std::size_t v : find_viewers(rays, viewpoints, place, options.margin, 1))
-        votes += patches[k].plane.signed_distance(viewpoints[v]) > 0 ? 1 : -1;
-    if (votes < 0) patches[k] = flipped(patches[k]);
-  });
-  return patches;
+// The side that the points' own viewpoints are on: more than 0 for the patch's normal's, 0 where
+// they do not tell.
+int own_side(const Patch& patch, const PointCloud& cloud, std::span<const std::uint32_t> members,
+             const Faced& faced, const FacingOptions& options) {
+  std::int64_t lead = 0;
+  for (const auto& [v, sight] : own_sights_of(patch, cloud, members, options))
+    if (faced.number[v] >= 0) lead += sight.before - sight.behind;
+  const double least = options.min_lead * static_cast<double>(members.size());
+  return lead == 0 || std::abs(static_cast<double>(lead)) < least ? 0 : lead > 0 ? 1 : -1;
+}
+
+// The side that viewpoints with a free line to the patch are on, as own_side().
+int likely_side(const Patch& patch, const PatchRays& rays, const std::vector<Vec3>& viewpoints,
+                const FacingOptions& options) {
+  int votes = 0;
+  for (const Vec3& place : places_on(patch, options.places))
+    for (std::size_t v : find_viewers(rays, viewpoints, place, options.margin, 1))
+      votes += patch.plane.signed_distance(viewpoints[v]) > 0 ? 1 : -1;
+  return votes;
 }
 
 }  // namespace
@@ -202,8 +232,14 @@ Faced face_free_side(std::vector<Patch> patches, const PatchRays& rays, const Po
                      const Members& members, const Vec3& up, const FacingOptions& options) {
   Faced faced;
   Turned turned = face_by_rays(std::move(patches), rays, cloud, members, up, options);
-  faced.viewpoints = find_seeing(turned, rays, cloud.viewpoints, options);
-  faced.patches = face_viewpoints(std::move(turned.patches), rays, faced.viewpoints, options);
+  find_seeing(turned, rays, cloud, members, options, faced);
+  faced.patches = std::move(turned.patches);
+  parallel_for(faced.patches.size(), [&](std::size_t k) {
+    Patch& patch = faced.patches[k];
+    int side = own_side(patch, cloud, members.of(k), faced, options);
+    if (side == 0) side = likely_side(patch, rays, faced.viewpoints, options);
+    if (side < 0) patch = flipped(patch);
+  });
   return faced;
 }
 

@@ -27,6 +27,7 @@ std::vector<std::int32_t> find_sole_viewers(const Surroundings& around, const Pa
                                             const SeenThroughOptions& options) {
   const std::size_t count = around.points.size();
   if (viewpoints.empty()) return {};
+  if (!around.viewers.empty()) return around.viewers;
   std::vector<std::int32_t> viewers(count, -1);
   const auto most = static_cast<std::size_t>(std::max(1, options.most));
   const std::size_t stride =

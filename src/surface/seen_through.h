@@ -15,8 +15,9 @@ struct SeenThroughOptions {
   int most = 400'000;       // places that are looked at, when there are several viewpoints
 };
 
-// The viewpoint of each place around, or -1: the only one of those nearby that has a free line to
-// it. Where several may have seen it, none of their lines proves that there is nothing in it.
+// The viewpoint of each place around, or -1: its own where any place knows one (`around.viewers`),
+// else the only one of those nearby that has a free line to it. Where several may have seen it,
+// none of their lines proves that there is nothing in it.
 std::vector<std::int32_t> find_sole_viewers(const Surroundings& around, const PatchRays& rays,
                                             const std::vector<Vec3>& viewpoints,
                                             const SeenThroughOptions& options = {});

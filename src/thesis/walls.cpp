@@ -48,6 +48,21 @@ bool is_inside(const Vec3& p, const Polygon& polygon, const Vec3& normal) {
   return true;
 }
 
+// How many more points of each cluster were seen from before its plane than from behind, by the
+// viewpoints that they know.
+std::vector<std::int64_t> count_viewers(const PointCloud& cloud,
+                                        const std::vector<std::int32_t>& labels,
+                                        const std::vector<Cluster>& clusters) {
+  std::vector<std::int64_t> votes(clusters.size());
+  for (std::size_t i = 0; i < cloud.viewers.size(); ++i) {
+    if (labels[i] < 0 || cloud.viewers[i] < 0) continue;
+    const auto c = static_cast<std::size_t>(labels[i]);
+    const Vec3& from = cloud.viewpoints[static_cast<std::size_t>(cloud.viewers[i])];
+    votes[c] += clusters[c].fit.plane.signed_distance(from) > 0 ? 1 : -1;
+  }
+  return votes;
+}
+
 // Positive where the free side is the one that the plane's normal points to.
 double free_side(const Plane& plane, const Polygon& polygon, const std::vector<Vec3>& viewpoints,
                  const std::vector<Vec3>& points) {
@@ -99,12 +114,16 @@ std::vector<FoundSurface> describe_walls(const PointCloud& cloud,
                                          const std::vector<Cluster>& clusters,
                                          const std::vector<Polygon>& polygons) {
   const std::vector<PointSums> sums = add_up(cloud, labels, clusters);
+  const std::vector<std::int64_t> viewers = count_viewers(cloud, labels, clusters);
   std::vector<FoundSurface> walls(clusters.size());
   parallel_for(clusters.size(), [&](std::size_t c) {
     FoundSurface wall{.plane = clusters[c].fit.plane, .outer = polygons[c]};
     if (polygons[c].size() >= 3) {
       wall.support.coverage = coverage(clusters[c], polygons[c], points, delta);
-      if (free_side(wall.plane, wall.outer, cloud.viewpoints, points) < 0) {
+      const double side = viewers[c] != 0
+                              ? static_cast<double>(viewers[c])
+                              : free_side(wall.plane, wall.outer, cloud.viewpoints, points);
+      if (side < 0) {
         wall.plane = wall.plane.flipped();
         std::reverse(wall.outer.begin(), wall.outer.end());
       }

@@ -59,7 +59,10 @@ class Measurement {
     if (cloud.points.empty()) throw Error(Cause::bad_input, "the scan has no points");
     const double sparse = options.cover_per_spacing * options.spacing;
     max_distance_ = std::max(options.max_distance, 2 * std::hypot(sparse, options.max_tolerance));
-    points_ = sample_points(cloud_, options.points);
+    for (const std::uint32_t i : sample_points(cloud_, options.points)) {
+      points_.push_back(cloud_.point(i));
+      viewers_.push_back(cloud.viewer_of(i));
+    }
     if (options.depth_step > 0)
       camera_ = cloud.viewpoints.empty() ? cloud_.to_world(Vec3::Zero()) : viewpoints()[0];
     for (const Obstacle& obstacle : world.obstacles) {
@@ -291,11 +294,11 @@ class Measurement {
     std::vector<SeenPoint> seen;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (!explained_[i]) {
-        if (flat_[i]) seen.push_back({points_[i], flat_[i]});
+        if (flat_[i]) seen.push_back({points_[i], flat_[i], viewers_[i]});
       } else if (near_[i] && near_[i]->is_surface) {
-        seen.push_back({points_[i], world_.surfaces[near_[i]->index].plane.normal});
+        seen.push_back({points_[i], world_.surfaces[near_[i]->index].plane.normal, viewers_[i]});
       } else {
-        seen.push_back({points_[i], {}});
+        seen.push_back({points_[i], {}, viewers_[i]});
       }
     }
     SightLines lines = follow_sight_lines(seen, viewpoints(), scene_,
@@ -321,6 +324,7 @@ class Measurement {
   double cover_ = 0, max_distance_ = 0, bend_ = 0;  // [m]
   Vec3 camera_ = Vec3::Zero();
   std::vector<Vec3> points_;
+  std::vector<std::int32_t> viewers_;  // of each point its viewpoint, or -1
   std::vector<const Curve*> surface_curves_, obstacle_curves_;
   std::vector<double> noise_;                 // [m] of each point
   std::vector<std::optional<Nearest>> near_;  // of each point

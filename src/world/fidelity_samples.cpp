@@ -11,7 +11,7 @@
 
 namespace scanworld {
 
-std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
+std::vector<std::uint32_t> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
   struct Ranked {
     std::uint64_t rank;
     std::uint32_t point;
@@ -34,10 +34,12 @@ std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted) {
   const auto xyz = [&](const Ranked& r) { return cloud.cloud().points[r.point].data(); };
   std::sort(all.begin(), all.end(), [&](const Ranked& a, const Ranked& b) {
     if (a.rank != b.rank) return a.rank < b.rank;
+    if (cloud.cloud().points[a.point] == cloud.cloud().points[b.point])
+      return cloud.cloud().viewer_of(a.point) < cloud.cloud().viewer_of(b.point);
     return std::lexicographical_compare(xyz(a), xyz(a) + 3, xyz(b), xyz(b) + 3);
   });
-  std::vector<Vec3> points;
-  for (const Ranked& r : all) points.push_back(cloud.point(r.point));
+  std::vector<std::uint32_t> points;
+  for (const Ranked& r : all) points.push_back(r.point);
   return points;
 }
 

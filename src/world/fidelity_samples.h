@@ -10,8 +10,8 @@
 
 namespace scanworld {
 
-// About `wanted` points of the cloud, chosen and ordered by their coordinates.
-std::vector<Vec3> sample_points(const CloudInWorld& cloud, std::size_t wanted);
+// About `wanted` points of the cloud by their indices, chosen and ordered by their coordinates.
+std::vector<std::uint32_t> sample_points(const CloudInWorld& cloud, std::size_t wanted);
 
 // A place on a surface, which stands for some area.
 struct PlaceOnSurface {

@@ -49,17 +49,21 @@ std::optional<Vec3> eye_of(const Pane& pane, const std::vector<Vec3>& viewpoints
   return nearest;
 }
 
-bool is_glass(const Pane& pane, const std::vector<Vec3>& places, const Vec3& eye,
-              const GlassOptions& options) {
+bool is_glass(const Pane& pane, const std::vector<Vec3>& places,
+              const std::vector<Vec3>& viewpoints, const std::vector<std::int32_t>& viewers,
+              const Vec3& eye, const GlassOptions& options) {
   std::size_t around = 0, through = 0;
-  const double before = pane.plane.signed_distance(eye);
-  for (const Vec3& place : places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec3& place = places[i];
     const double distance = pane.plane.signed_distance(place);
     if (std::abs(distance) < options.behind / 3) {
       const Vec2 p = pane.frame.to_plane(place);
       around += pane.rim.contains(p) && !pane.box.contains(p);
     } else if (std::abs(distance) > options.behind && std::abs(distance) < options.depth) {
-      const Vec3 at = eye + (place - eye) * (before / (before - distance));
+      const bool knows = !viewers.empty() && viewers[i] >= 0;
+      const Vec3& from = knows ? viewpoints[static_cast<std::size_t>(viewers[i])] : eye;
+      const double before = pane.plane.signed_distance(from);
+      const Vec3 at = from + (place - from) * (before / (before - distance));
       through += (before > 0) != (distance > 0) && pane.box.contains(pane.frame.to_plane(at));
     }
   }
@@ -71,12 +75,14 @@ bool is_glass(const Pane& pane, const std::vector<Vec3>& places, const Vec3& eye
 
 std::vector<Opening> flag_glass(const World& world, std::vector<Opening> openings,
                                 const std::vector<Vec3>& places,
-                                const std::vector<Vec3>& viewpoints, const GlassOptions& options) {
+                                const std::vector<Vec3>& viewpoints,
+                                const std::vector<std::int32_t>& viewers,
+                                const GlassOptions& options) {
   parallel_for(openings.size(), [&](std::size_t i) {
     if (openings[i].kind != OpeningKind::window) return;
     const Pane pane = pane_of(world, openings[i], options.rim);
     const auto eye = eye_of(pane, viewpoints, options.standoff);
-    openings[i].glass = eye && is_glass(pane, places, *eye, options);
+    openings[i].glass = eye && is_glass(pane, places, viewpoints, viewers, *eye, options);
   });
   return openings;
 }

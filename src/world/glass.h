@@ -17,10 +17,12 @@ struct GlassOptions {
 // Flags the windows behind which hardly anything was seen, though a scanner stood before them: a
 // pane gives no returns but a few mirrored ones. So does the open sky; a window is glazed rather.
 // `places`: of what the scan holds, as dense on the wall as behind it; these and the viewpoints,
-// which may be none, in the world's coordinates.
+// which may be none, in the world's coordinates. `viewers`: of each place the index of its own
+// viewpoint or -1; empty where none is known.
 std::vector<Opening> flag_glass(const World& world, std::vector<Opening> openings,
                                 const std::vector<Vec3>& places,
                                 const std::vector<Vec3>& viewpoints,
+                                const std::vector<std::int32_t>& viewers = {},
                                 const GlassOptions& options = {});
 
 // The world with one more surface for each pane, after its own: its wall's, but for the loop.

@@ -64,15 +64,22 @@ CellSet follow_all(std::size_t count, const Follow& follow) {
 }
 
 // From the viewpoints to the cells with points; where those are too many, to some of them.
-CellSet look_from_viewpoints(const std::vector<Vec3>& all_viewpoints, const CellSet& occupied,
-                             const Box3& where, double cell, const SeenSpaceOptions& options) {
+CellSet look_from_viewpoints(const PointCloud& cloud, const CellSet& occupied, const Box3& where,
+                             double cell, const SeenSpaceOptions& options) {
   std::vector<Vec3> viewpoints;
-  for (const Vec3& v : all_viewpoints)
-    if (has_code(v, cell)) viewpoints.push_back(v);
+  std::vector<std::int32_t> number;  // among those, or -1
+  for (const Vec3& v : cloud.viewpoints) {
+    const bool is_near = has_code(v, cell);
+    number.push_back(is_near ? static_cast<std::int32_t>(viewpoints.size()) : -1);
+    if (is_near) viewpoints.push_back(v);
+  }
   std::vector<std::uint64_t> targets = occupied.codes();
   const std::uint64_t stride = targets.size() / static_cast<std::size_t>(options.max_lines) + 1;
   std::erase_if(targets, [&](std::uint64_t code) { return mix(code) % stride != 0; });
-  const auto viewers = find_viewers(targets, viewpoints, cell, occupied);
+  std::vector<OwnViewer> own = own_viewers(cloud, targets, cell);
+  for (OwnViewer& o : own)
+    if (o.viewer >= 0) o.viewer = number[static_cast<std::size_t>(o.viewer)];
+  const auto viewers = find_viewers(targets, viewpoints, cell, occupied, own);
   return follow_all(targets.size(), [&](std::size_t i, CellSet& seen) {
     if (viewers[i] == kNobody) return;
     const auto way = clip_way(viewpoints[viewers[i]] / cell,
@@ -164,7 +171,7 @@ SeenSpace find_seen_space(const PointCloud& cloud, const World& world, const Box
   const Box3 cells(where.min() / cell, where.max() / cell);
   if (cloud.viewpoints.empty())
     return {cell, look_between_surfaces(world, occupied, cells, cell, options), false};
-  return {cell, look_from_viewpoints(cloud.viewpoints, occupied, cells, cell, options), true};
+  return {cell, look_from_viewpoints(cloud, occupied, cells, cell, options), true};
 }
 
 }  // namespace scanworld

@@ -25,9 +25,9 @@ struct SeenSpace {
 };
 
 // What was seen to be free in a box, about. Where viewpoints are known, that is what is between
-// them and the points that they saw; where none is, what is between any two places on surfaces that
-// face each other, with no point in between. `cell` [m]: a sampled surface has points in each such
-// cell.
+// them and the points that they saw, as the points know or else as it seems; where none is, what is
+// between any two places on surfaces that face each other, with no point in between. `cell` [m]: a
+// sampled surface has points in each such cell.
 SeenSpace find_seen_space(const PointCloud& cloud, const World& world, const Box3& where,
                           double cell, const SeenSpaceOptions& options = {});
 

@@ -27,8 +27,11 @@ Sight look_from(const Vec3& viewpoint, const Vec3& point, const RayScene& scene,
           range <= options.before || scene.is_free(viewpoint, point - options.before * direction)};
 }
 
-Sight find_sight(const Vec3& point, const std::vector<Vec3>& viewpoints, const RayScene& scene,
+Sight find_sight(const SeenPoint& seen, const std::vector<Vec3>& viewpoints, const RayScene& scene,
                  const SightOptions& options) {
+  const Vec3& point = seen.at;
+  if (seen.viewer >= 0)
+    return look_from(viewpoints[static_cast<std::size_t>(seen.viewer)], point, scene, options);
   const Vec3& nearest = nearest_of(viewpoints, point);
   const Sight first = look_from(nearest, point, scene, options);
   if (first.is_free || viewpoints.size() == 1) return first;
@@ -59,7 +62,7 @@ SightLines follow_sight_lines(const std::vector<SeenPoint>& points,
     SightLines& lines = parts[i];
     for (std::size_t k = begin; k < end; ++k) {
       const SeenPoint& p = points[k];
-      const Sight sight = find_sight(p.at, viewpoints, scene, options);
+      const Sight sight = find_sight(p, viewpoints, scene, options);
       if (p.normal && std::abs(p.normal->dot(sight.direction)) < std::cos(options.max_incidence))
         continue;
       if (sight.range > options.min_range) {

@@ -13,6 +13,7 @@ namespace scanworld {
 struct SeenPoint {
   Vec3 at;
   std::optional<Vec3> normal;  // of the surface that it lies on, of either sign
+  std::int32_t viewer = -1;    // the viewpoint that it is known to have been seen from
 };
 
 struct SightOptions {
@@ -40,8 +41,9 @@ struct SightLines {
   std::vector<Leak> leaks;            // those that met nothing
 };
 
-// Follows the ray to each point from the viewpoint that it was seen from: the nearest one from
-// where it can be seen, or where there is none the nearest one. At least one viewpoint.
+// Follows the ray to each point from the viewpoint that it was seen from: where that is not known
+// the nearest one from where it can be seen, or where there is none the nearest one. At least one
+// viewpoint.
 SightLines follow_sight_lines(const std::vector<SeenPoint>& points,
                               const std::vector<Vec3>& viewpoints, const RayScene& scene,
                               const SightOptions& options = {});

@@ -30,6 +30,7 @@ std::vector<Patch> LabelledScan::weighed_patches() const {
 Surroundings LabelledScan::surroundings() const {
   Surroundings around = surroundings_of(cloud.points, labels);
   around.viewpoints = cloud.viewpoints;
+  around.viewers = cloud.viewers;
   around.viewers = find_sole_viewers(around, PatchRays(patches()), cloud.viewpoints);
   return around;
 }
