@@ -37,17 +37,19 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"scan", {"ground"}},
     {"thesis", {"ground"}},
     {"rival", {"ground"}},
+    {"space", {"ground"}},
     {"surface", {"ground"}},
     {"world", {"ground"}},
-    {"reconstruct", {"ground", "scan", "thesis", "rival", "surface", "world"}},
+    {"reconstruct", {"ground", "scan", "thesis", "rival", "space", "surface", "world"}},
     {"exporters", {"ground", "world"}},
     {"sim_check", {"ground", "world", "exporters"}},
     {"viewer", {"ground", "world", "exporters"}},
     {"apps",
-     {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters",
+     {"ground", "scan", "thesis", "rival", "space", "surface", "world", "reconstruct", "exporters",
       "sim_check", "viewer"}},
     {"bench",
-     {"ground", "scan", "thesis", "rival", "surface", "world", "reconstruct", "exporters"}},
+     {"ground", "scan", "thesis", "rival", "space", "surface", "world", "reconstruct",
+      "exporters"}},
 };
 
 // The start of a library's header names, and the file that may include them; Bullet is written in
