@@ -30,9 +30,9 @@ const std::vector<ExportFormat>& export_formats();
 // those that exist.
 const ExportFormat& export_format(const std::filesystem::path& path, const std::string& name = "");
 
-// The world as it is to be written: moved, turned and coloured as asked, and with colliders and
-// rooms, which are made where it has none. Throws usage where it is over the budget, saying what
-// and by how much.
+// The world as it is to be written: moved, turned and coloured as asked, with colliders and rooms,
+// which are made where it has none, and without the parts that are to be left out. Throws usage
+// where nothing is left, and where it is over the budget, saying what and by how much.
 World prepare_export(World world, const ExportOptions& options);
 
 // Prepares a world and writes it in the format of the file's extension, or in `format`. Every file

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 
 #include "types.h"
+#include "world/leave_out.h"
 
 namespace scanworld {
 
@@ -36,7 +38,8 @@ struct ExportOptions {
   std::size_t min_points = 1;  // grids of scans: a cell with fewer points has none
   // [m] over the floor, between which things are in a robot's way (FloorPlanOptions)
   double band_low = 0.1, band_high = 1.8;
-  int storey = -1;  // of maps of one: 0 for the lowest; -1 for that of the main floor
+  int storey = -1;              // of maps of one: 0 for the lowest; -1 for that of the main floor
+  std::set<WorldPart> without;  // parts that are left out of what is written
   ExportBudget budget;
 };
 

@@ -77,6 +77,10 @@ World prepare_export(World world, const ExportOptions& options) {
     RoomMap map = find_rooms(world);
     world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
   }
+  // Last, as solids and rooms are made of the whole.
+  world = leave_out(std::move(world), options.without);
+  if (!options.without.empty() && world.surfaces.empty() && world.obstacles.empty())
+    throw Error(Cause::usage, "--without leaves nothing of the world: no surface and no obstacle");
   if (options.color_by_kind)
     for (Surface& s : world.surfaces) s.color.reset();
   check_budget(world, options);

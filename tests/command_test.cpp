@@ -487,6 +487,82 @@ TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
   CHECK((Vec3(5.1, 4.3, 2.7) - size).minCoeff() > -0.1);
 }
 
+TEST_CASE("export leaves out what it is asked to, of what is seen and of what is met") {
+  const TempFolder folder;
+  const std::string office = in_project("worlds/office.json");
+  const auto exported = [&](const std::string& name, const std::string& without) {
+    const Outcome outcome = run({"export", office, "-o", folder / name, "--without", without});
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    return read_file(folder / name);
+  };
+  struct Case {
+    const char *file, *without;
+    std::vector<std::string> there, gone;
+  };
+  const std::vector<Case> cases = {
+      {"o.obj", "", {"o wall_", "o obstacle_"}, {}},
+      {"o.obj", "obstacles", {"o wall_", "o floor_"}, {"obstacle"}},
+      {"o.obj", "surfaces", {"o obstacle_"}, {"o wall_", "o floor_"}},
+      {"o.xml", "", {"wall_", "_solid_0", "obstacle_"}, {}},
+      {"o.xml", "obstacles", {"wall_", "_solid_0"}, {"obstacle_"}},
+      {"o.xml", "colliders", {"wall_", "obstacle_"}, {"_solid_"}},
+      {"o.xml", "colliders,obstacles", {"wall_"}, {"_solid_", "obstacle_"}},
+      {"o.xml", "surfaces", {"obstacle_"}, {"wall_", "_solid_"}},
+      {"o.urdf", "obstacles", {"_solid_0"}, {"obstacle_"}},
+      {"o.usda", "obstacles", {"wall_", "_solid_0"}, {"obstacle_"}},
+      {"o.bullet", "obstacles", {"_solid_0"}, {"obstacle_"}},
+      {"o.dot", "", {" -- "}, {}},
+      {"o.dot", "openings", {}, {" -- "}},
+  };
+  for (const Case& c : cases) {
+    const std::string text = exported(c.file, c.without);
+    INFO(c.file << " without " << c.without);
+    for (const std::string& name : c.there) CHECK_MESSAGE(contains(text, name), name);
+    for (const std::string& name : c.gone) CHECK_MESSAGE(!contains(text, name), name);
+  }
+  exported("o.json", "obstacles,openings");
+  const World world = read_world(folder / "o.json");
+  CHECK(validate(world).empty());
+  CHECK(world.obstacles.empty());
+  CHECK(world.doors.empty());
+  CHECK(world.surfaces.size() == read_world(office).surfaces.size());
+}
+
+TEST_CASE("--without goes with --all and --sagitta") {
+  const TempFolder folder;
+  for (const char* without : {"obstacles", "surfaces", "colliders,obstacles", "openings"}) {
+    INFO(without);
+    const Outcome outcome = run({"export", in_project("worlds/office.json"), "-o", folder / "all",
+                                 "--all", "--without", without, "--sagitta", "5mm"});
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    for (const char* name : {"world.stl", "world.glb", "world.ply", "world.dae", "world.bullet",
+                             "world.sdf", "world.json"})
+      CHECK_MESSAGE(fs::exists(folder / "all" / name), name);
+    CHECK(validate(read_world(folder / "all/world.json")).empty());
+  }
+}
+
+TEST_CASE("export without an unknown part, without anything left, or of a scan is refused") {
+  const TempFolder folder;
+  const auto refused = [&](const fs::path& input, const std::string& without,
+                           const std::vector<std::string>& more, const std::string& told) {
+    std::vector<std::string> arguments = {"export", input, "--without", without};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    INFO(without << ": " << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, told));
+  };
+  const fs::path room = in_project("worlds/room.json"), out = folder / "o.obj";
+  refused(folder / "absent.json", "obstacles,walls", {"-o", out},
+          "'walls' is no part of a world; there are obstacles, colliders, openings, surfaces, "
+          "inferred");
+  refused(room, "surfaces,obstacles", {"-o", out}, "--without leaves nothing of the world");
+  refused(room, "surfaces,obstacles", {"-o", folder / "all", "--all"}, "--without leaves nothing");
+  refused(in_project("data/office.ply"), "obstacles", {"-o", folder / "o.bt"}, "not a scan");
+  CHECK(entries(folder.path()) == 0);
+}
+
 TEST_CASE("each verb helps with an example") {
   for (const char* verb : {"build", "info", "export", "scan", "check"}) {
     const Outcome outcome = run({verb, "--help"});

@@ -63,6 +63,18 @@ std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const V
   return box;
 }
 
+void drop_dangling(World& world) {
+  const std::set<int> kept = surface_ids(world);
+  std::erase_if(world.colliders, [&](const Collider& c) { return !kept.contains(c.surface); });
+  std::erase_if(world.openings, [&](const Opening& o) { return !kept.contains(o.surface); });
+  std::set<int> openings;
+  for (const Opening& o : world.openings) openings.insert(o.id);
+  std::erase_if(world.doors, [&](const Door& d) { return !openings.contains(d.opening); });
+  for (Room& room : world.rooms)
+    std::erase_if(room.surfaces, [&](int id) { return !kept.contains(id); });
+  drop_vertices(world);
+}
+
 void drop_vertices(World& world) {
   std::vector<int> index(world.vertices.size(), -1);
   const auto each_loop = [&](auto visit) {
@@ -105,15 +117,7 @@ World simplify(World world, const SimplifyOptions& options) {
       }
   std::erase_if(world.surfaces,
                 [&](const Surface& s) { return is_small(world, s, options.min_size); });
-  const std::set<int> kept = surface_ids(world);
-  std::erase_if(world.colliders, [&](const Collider& c) { return !kept.contains(c.surface); });
-  std::erase_if(world.openings, [&](const Opening& o) { return !kept.contains(o.surface); });
-  std::set<int> openings;
-  for (const Opening& o : world.openings) openings.insert(o.id);
-  std::erase_if(world.doors, [&](const Door& d) { return !openings.contains(d.opening); });
-  for (Room& room : world.rooms)
-    std::erase_if(room.surfaces, [&](int id) { return !kept.contains(id); });
-  drop_vertices(world);
+  drop_dangling(world);
   return world;
 }
 

@@ -21,6 +21,9 @@ World simplify(World world, const SimplifyOptions& options);
 // The upright box or cylinder, whichever holds less, around a hull.
 std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const Vec3& up);
 
+// Removes what refers to surfaces and openings that are gone, and vertices that nothing refers to.
+void drop_dangling(World& world);
+
 // Removes vertices that nothing refers to.
 void drop_vertices(World& world);
 
