@@ -23,7 +23,7 @@ std::string room_of(const fs::path& file) {
       "report",         "version",     "mix",          "disjoint_sets", "point_sums", "polygon",
       "mesh_rays",      "segments",    "circle",       "cell_walk",     "cell_set",   "cell_sight",
       "occupancy_grid", "noise_map",   "replay",       "curve",         "quantile",   "text",
-      "turn",           "known_files", "output_folder"};
+      "turn",           "known_files", "output_folder", "viewers",      "min_cut"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;
@@ -60,7 +60,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kLibraries =
     {"assimp/", {"exporters/assimp.cpp"}},
     {"tiny_gltf.h", {"exporters/gltf.cpp"}},
     {"embree3/", {"src/mesh_rays.cpp"}},
-    {"boost/", {"src/surface/choose_cells.cpp"}},
+    {"boost/", {"src/min_cut.cpp"}},
     {"geos", {"src/world/geos.cpp"}},
     {"libqhull", {"src/world/solids.cpp"}},
     {"zlib.h", {"src/scan/file.cpp"}},

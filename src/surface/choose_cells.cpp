@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "choose_cells.h"
 
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include "../min_cut.h"
 
 namespace scanworld::surface {
 
@@ -35,51 +34,13 @@ double price_of(const Arrangement& arrangement, const Arrangement::Side& side,
          (length - seen) * options.open_price;
 }
 
-struct Edge {
-  int from, to;
-  double capacity, back;
-};
-
-// For each node whether it is on the source's side of the least cut.
-std::vector<char> cut(std::size_t nodes, int source, int sink, const std::vector<Edge>& edges) {
-  using namespace boost;
-  using Traits = adjacency_list_traits<vecS, vecS, directedS>;
-  using Graph = adjacency_list<
-      vecS, vecS, directedS,
-      property<vertex_index_t, long,
-               property<vertex_color_t, default_color_type,
-                        property<vertex_distance_t, long,
-                                 property<vertex_predecessor_t, Traits::edge_descriptor>>>>,
-      property<edge_capacity_t, double,
-               property<edge_residual_capacity_t, double,
-                        property<edge_reverse_t, Traits::edge_descriptor>>>>;
-  Graph graph(nodes);
-  auto capacity = get(edge_capacity, graph);
-  auto reverse = get(edge_reverse, graph);
-  for (const Edge& e : edges) {
-    const auto there =
-        add_edge(static_cast<std::size_t>(e.from), static_cast<std::size_t>(e.to), graph).first;
-    const auto back =
-        add_edge(static_cast<std::size_t>(e.to), static_cast<std::size_t>(e.from), graph).first;
-    capacity[there] = e.capacity, capacity[back] = e.back;
-    reverse[there] = back, reverse[back] = there;
-  }
-  boykov_kolmogorov_max_flow(graph, static_cast<std::size_t>(source),
-                             static_cast<std::size_t>(sink));
-  const auto color = get(vertex_color, graph);
-  std::vector<char> side(nodes);
-  for (std::size_t i = 0; i < nodes; ++i)
-    side[i] = color[i] == color[static_cast<std::size_t>(source)];
-  return side;
-}
-
 }  // namespace
 
 std::vector<char> choose_cells(const Arrangement& arrangement, const std::vector<CutLine>& lines,
                                const PlaneFrame& frame, const ChoiceOptions& options) {
   const std::size_t count = arrangement.cells.size();
   const int source = static_cast<int>(count), sink = source + 1;
-  std::vector<Edge> edges;
+  std::vector<FlowEdge<double>> edges;
   for (std::size_t c = 0; c < count; ++c) {
     const Arrangement::Cell& cell = arrangement.cells[c];
     const int own = static_cast<int>(c);
@@ -105,7 +66,7 @@ std::vector<char> choose_cells(const Arrangement& arrangement, const std::vector
         edges.push_back({own, side.across, price, price});
     }
   }
-  std::vector<char> chosen = cut(count + 2, source, sink, edges);
+  std::vector<char> chosen = min_cut(count + 2, source, sink, edges);
   chosen.resize(count);
   return chosen;
 }
