@@ -6,13 +6,11 @@
 
 #include <algorithm>
 
-#include "cut_curves.h"
 #include "error.h"
+#include "find_surfaces.h"
 #include "quantile.h"
-#include "record.h"
 #include "rival/curve_points.h"
 #include "scan/distinct.h"
-#include "surface/describe.h"
 #include "thesis/labels.h"
 #include "thesis/triangulation.h"
 #include "thesis/walls.h"
@@ -28,14 +26,6 @@
 namespace scanworld {
 
 namespace {
-
-// Labels that are called otherwise; -1 stays.
-std::vector<std::int32_t> labels_by(const std::vector<std::int32_t>& new_label,
-                                    std::vector<std::int32_t> labels) {
-  for (std::int32_t& l : labels)
-    if (l >= 0) l = new_label[static_cast<std::size_t>(l)];
-  return labels;
-}
 
 // Found surfaces with an area; labels follow them.
 void drop_degenerate(std::vector<FoundSurface>& surfaces, ReconstructResult& result) {
@@ -104,22 +94,6 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
   });
 }
 
-// Gives the points of each plane to its first piece, and what is known of the plane to all of them.
-void relabel(const std::vector<surface::Piece>& pieces, std::size_t planes,
-             ReconstructResult& result) {
-  std::vector<std::int32_t> first(planes, -1);
-  std::vector<double> noise;
-  for (std::size_t k = pieces.size(); k-- > 0;)
-    if (const auto plane = static_cast<std::size_t>(pieces[k].patch); plane < planes)
-      first[plane] = static_cast<std::int32_t>(k);
-  for (const surface::Piece& piece : pieces) {
-    const auto plane = static_cast<std::size_t>(piece.patch);
-    noise.push_back(plane < planes ? result.report.plane_noise[plane] : 0);
-  }
-  result.report.plane_noise = std::move(noise);
-  result.labels = labels_by(first, std::move(result.labels));
-}
-
 // The voxels' points with their planes.
 surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clustering& clusters,
                                       const std::vector<std::int32_t>& plane_of_cluster) {
@@ -135,13 +109,6 @@ surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clus
 }
 
 // What planes say about up, by the number of their points.
-std::vector<Facing> facings_of(const std::vector<Plane>& planes, const surface::Members& members) {
-  std::vector<Facing> facings;
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    facings.push_back({planes[k].normal, static_cast<double>(members.of(k).size())});
-  return facings;
-}
-
 std::vector<Facing> facings_of(const rival::Clustering& clustering) {
   std::vector<Facing> facings;
   for (const rival::Cluster& cluster : clustering.clusters)
@@ -172,70 +139,6 @@ std::vector<Vec3> places_of(const surface::Surroundings& around, const CloudInWo
   std::vector<Vec3> places;
   for (const Vec3f& p : around.points) places.push_back(place.to_world(p.cast<double>()));
   return places;
-}
-
-// The planes' polygons. A plane's points are labelled with its largest piece.
-template <typename Around>
-Found make_surfaces(const PointCloud& cloud, const std::vector<Plane>& planes,
-                    const CutCurves& round, double voxel, const Around& find_around,
-                    const surface::SurfaceOptions& options, StageLog& log,
-                    ReconstructResult& result, Recorder& recorder) {
-  using namespace surface;
-  Members members;
-  std::optional<PatchRays> rays;
-  Vec3 up;
-  std::vector<Vec3> viewpoints;
-  std::vector<std::int32_t> number;  // of each of the cloud's viewpoints, among those
-  std::vector<Patch> patches = log.run("Covering planes", "points -> patches", cloud, [&] {
-    members = group_points(result.labels, planes.size());
-    up = find_frame(cloud, facings_of(planes, members)).up;
-    std::vector<Patch> found = find_patches(cloud, members, planes, voxel, options.patch);
-    rays.emplace(found);
-    Faced faced = face_free_side(std::move(found), *rays, cloud, members, up, options.facing);
-    viewpoints = std::move(faced.viewpoints), number = std::move(faced.number);
-    return std::move(faced.patches);
-  });
-  if (const std::size_t blind = cloud.viewpoints.size() - viewpoints.size(); blind > 0)
-    result.report.warnings.push_back(fmt::format(
-        "{} of {} scanner positions are left out: no lines of sight go from there to the points, "
-        "but through the backs of surfaces",
-        blind, cloud.viewpoints.size()));
-  const std::vector<Seam> seams = log.run("Finding seams", "patches -> seams", patches,
-                                          [&] { return find_seams(patches, options.seams); });
-  const std::vector<std::vector<CutLine>> lines = lines_of(patches, seams, options.seams);
-  Surroundings around;
-  patches = log.run("Weighing gaps", "patches -> patches", patches, [&] {
-    around = find_around();
-    around.viewpoints = viewpoints;
-    around.viewers = labels_by(number, std::move(around.viewers));
-    around.viewers = find_sole_viewers(around, *rays, viewpoints, options.gaps.through);
-    rays.reset();
-    return weigh_gaps(std::move(patches), lines, around, up, options.gaps);
-  });
-  const std::vector<SharedEdge> edges =
-      log.run("Finding free edges", "patches -> edges", patches, [&] {
-        std::vector<SharedEdge> shared =
-            share_edges(find_free_edges(cloud, members, patches, lines, options.free_edges),
-                        patches, seams, options.shared_edges);
-        return move_to_reveals(std::move(shared), patches, around, options.shared_edges);
-      });
-  const Pieces pieces = log.run("Outlining", "patches -> polygons", patches, [&] {
-    return add_reveals(outline_patches(patches, lines, edges, options), options.reveals);
-  });
-  recorder.add("Arrangement", "lines cut each plane into cells; those with evidence are kept",
-               loops_of(pieces.polygons));
-  std::vector<FoundSurface> surfaces = log.run("Welding", "polygons -> surfaces", pieces, [&] {
-    const std::vector<Piece> welded = weld(pieces.polygons, pieces.planes, options.weld);
-    recorder.add("Arrangement", "corners that are nearly one become one", loops_of(welded));
-    relabel(welded, planes.size(), result);
-    std::vector<FoundSurface> found = describe(cloud, members, patches, pieces.planes, welded);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (const auto plane = static_cast<std::size_t>(welded[k].patch);
-          plane < planes.size() && round.curve_of_plane[plane] >= 0)
-        found[k].curve = round.curve_of_plane[plane];
-    return found;
-  });
-  return {std::move(surfaces), std::move(around), round.curves};
 }
 
 // The default method, docs/method.md.
@@ -357,10 +260,9 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
     grid = {}, neighbors = {};
     return around;
   };
-  Found found =
-      make_surfaces(cloud, planes, round, voxel, find_around, all.surface, log, result, recorder);
-  found.noise = std::move(scale.local);
-  return found;
+  SurfacesInScan made =
+      find_surfaces({cloud, planes, round, voxel, find_around}, all, log, result, recorder);
+  return {std::move(made.surfaces), std::move(made.around), round.curves, std::move(scale.local)};
 }
 
 // Takes over a mended world: labels and what is told of each surface follow.
@@ -406,7 +308,10 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress, options.method == Method::thesis ? 16 : 33);
+  StageLog log(result.report, progress,
+               options.method == Method::thesis ? 16
+               : options.space.is_on            ? 34
+                                                : 33);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);

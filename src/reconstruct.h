@@ -12,6 +12,7 @@
 #include "replay.h"
 #include "report.h"
 #include "rival/rival.h"
+#include "space/space.h"
 #include "surface/surface.h"
 #include "thesis/thesis.h"
 #include "world/colliders.h"
@@ -30,6 +31,7 @@ struct ReconstructOptions {
   rival::RivalOptions rival;
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
+  space::SpaceOptions space;
   ObstacleOptions obstacles;        // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;

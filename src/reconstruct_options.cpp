@@ -20,7 +20,8 @@ const char* name_of(Method method) { return method == Method::thesis ? "thesis" 
 OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
   for (const OptionList& more :
-       {surface::list_options(options.surface), thesis::list_options(options.thesis),
+       {surface::list_options(options.surface), space::list_options(options.space),
+        thesis::list_options(options.thesis),
         list_options(options.thickness), list_options(options.colliders),
         list_options(options.obstacles), list_options(options.rooms), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());

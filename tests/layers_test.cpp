@@ -19,11 +19,11 @@ namespace {
 // "exporters", "apps" ...
 std::string room_of(const fs::path& file) {
   static const std::set<std::string> ground = {
-      "types",          "error",       "parallel",     "progress",      "options",    "files",
-      "report",         "version",     "mix",          "disjoint_sets", "point_sums", "polygon",
-      "mesh_rays",      "segments",    "circle",       "cell_walk",     "cell_set",   "cell_sight",
-      "occupancy_grid", "noise_map",   "replay",       "curve",         "quantile",   "text",
-      "turn",           "known_files", "output_folder", "viewers",      "min_cut"};
+      "types",          "error",       "parallel",      "progress",      "options",    "files",
+      "report",         "version",     "mix",           "disjoint_sets", "point_sums", "polygon",
+      "mesh_rays",      "segments",    "circle",        "cell_walk",     "cell_set",   "cell_sight",
+      "occupancy_grid", "noise_map",   "replay",        "curve",         "quantile",   "text",
+      "turn",           "known_files", "output_folder", "viewers",       "min_cut"};
   const fs::path path = file.lexically_relative(fs::path(SCANWORLD_SOURCE_DIR).lexically_normal());
   const std::string top = path.begin()->string();
   if (top != "src") return top;
@@ -37,8 +37,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"scan", {"ground"}},
     {"thesis", {"ground"}},
     {"rival", {"ground"}},
-    {"space", {"ground"}},
     {"surface", {"ground"}},
+    {"space", {"ground", "surface"}},
     {"world", {"ground"}},
     {"reconstruct", {"ground", "scan", "thesis", "rival", "space", "surface", "world"}},
     {"exporters", {"ground", "world"}},

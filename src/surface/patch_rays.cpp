@@ -7,39 +7,6 @@
 
 namespace scanworld::surface {
 
-namespace {
-
-struct CellBox {
-  int x0, x1, y0, y1;  // from, and up to but without
-};
-
-// The set cells as rectangles: runs of a row, with the same runs of the rows after it.
-std::vector<CellBox> rectangles_of(const Raster& raster) {
-  std::vector<CellBox> done, open;
-  for (int y = 0; y <= raster.height; ++y) {
-    std::vector<CellBox> row;
-    for (int x = 0; x < raster.width; ++x) {
-      if (!raster.is_set(x, y)) continue;
-      const int start = x;
-      while (raster.is_set(x, y)) ++x;
-      row.push_back({start, x, y, y + 1});
-    }
-    for (const CellBox& before : open) {
-      const auto same = std::find_if(row.begin(), row.end(), [&](const CellBox& r) {
-        return r.x0 == before.x0 && r.x1 == before.x1;
-      });
-      if (same == row.end())
-        done.push_back(before);
-      else
-        same->y0 = before.y0;
-    }
-    open = std::move(row);
-  }
-  return done;
-}
-
-}  // namespace
-
 PatchRays::PatchRays(const std::vector<Patch>& patches) {
   Mesh mesh;
   for (std::size_t k = 0; k < patches.size(); ++k) {

@@ -81,4 +81,28 @@ Raster enclosed_by(const Raster& raster) {
   return enclosed;
 }
 
+std::vector<CellBox> rectangles_of(const Raster& raster) {
+  std::vector<CellBox> done, open;
+  for (int y = 0; y <= raster.height; ++y) {
+    std::vector<CellBox> row;
+    for (int x = 0; x < raster.width; ++x) {
+      if (!raster.is_set(x, y)) continue;
+      const int start = x;
+      while (raster.is_set(x, y)) ++x;
+      row.push_back({start, x, y, y + 1});
+    }
+    for (const CellBox& before : open) {
+      const auto same = std::find_if(row.begin(), row.end(), [&](const CellBox& r) {
+        return r.x0 == before.x0 && r.x1 == before.x1;
+      });
+      if (same == row.end())
+        done.push_back(before);
+      else
+        same->y0 = before.y0;
+    }
+    open = std::move(row);
+  }
+  return done;
+}
+
 }  // namespace scanworld::surface

@@ -59,4 +59,12 @@ Raster close(const Raster& raster, int reach);
 // The cells that have set ones to both sides, along both axes.
 Raster enclosed_by(const Raster& raster);
 
+// Cells of some columns and rows.
+struct CellBox {
+  int x0, x1, y0, y1;  // from, and up to but without
+};
+
+// The set cells as rectangles: runs of a row, with the same runs of the rows after it.
+std::vector<CellBox> rectangles_of(const Raster& raster);
+
 }  // namespace scanworld::surface

@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "interfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <unordered_map>
+
+#include "../disjoint_sets.h"
+#include "../polygon.h"
+
+namespace scanworld::space {
+
+namespace {
+
+using Edge = std::pair<int, int>;  // from one corner to another
+using CornerLoop = std::vector<int>;
+
+// Facets of one plane that hang together, with one side free.
+struct Sheet {
+  int plane;
+  std::size_t free_side;
+  std::vector<int> facets;
+  std::vector<CornerLoop> loops;  // counter-clockwise about the plane's normal; holes clockwise
+};
+
+// Gives each vertex the corner that stands for it: of those nearer than `same` the first one.
+std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>& vertices,
+                                double same) {
+  std::vector<int> corner(cells.vertex_count(), -1);
+  std::map<std::array<int, 3>, std::vector<int>> at;
+  for (const int v : vertices) {
+    const Vec3& p = cells.vertex(v);
+    const Eigen::Array3i here = (p / same).array().floor().cast<int>();
+    const auto find_near = [&]() -> int {
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z) {
+            const auto near = at.find({here.x() + x, here.y() + y, here.z() + z});
+            if (near == at.end()) continue;
+            for (const int other : near->second)
+              if ((cells.vertex(other) - p).norm() < same) return other;
+          }
+      return -1;
+    };
+    corner[static_cast<std::size_t>(v)] = find_near();
+    if (corner[static_cast<std::size_t>(v)] >= 0) continue;
+    corner[static_cast<std::size_t>(v)] = v;
+    at[{here.x(), here.y(), here.z()}].push_back(v);
+  }
+  return corner;
+}
+
+class SheetTracer {
+ public:
+  SheetTracer(const CellComplex& cells, const Evidence& evidence, const std::vector<Label>& labels,
+              const InterfaceOptions& options)
+      : cells_(cells), evidence_(evidence), labels_(labels), options_(options) {}
+
+  std::vector<Interface> trace() {
+    show();
+    gather_lines();
+    join();
+    trace_sheets();
+    for (const Sheet& sheet : sheets_) mark_turns(sheet);
+    std::vector<Interface> result;
+    for (const Sheet& sheet : sheets_) cut_out(sheet, result);
+    return result;
+  }
+
+ private:
+  Label label_of(int cell) const { return labels_[static_cast<std::size_t>(cell)]; }
+  const CellFacet& facet(int f) const { return cells_.facets()[static_cast<std::size_t>(f)]; }
+
+  // The facets between free and solid.
+  void show() {
+    std::set<int> vertices;
+    for (std::size_t f = 0; f < cells_.facets().size(); ++f) {
+      const CellFacet& facet = cells_.facets()[f];
+      if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
+      const Label a = label_of(facet.cells[0]), b = label_of(facet.cells[1]);
+      const bool is_surface =
+          (a == Label::free && b == Label::solid) || (a == Label::solid && b == Label::free);
+      const FacetEvidence& e = evidence_.facets[f];
+      if (!is_surface || e.empty > options_.max_empty * e.area) continue;
+      shown_.push_back(static_cast<int>(f));
+      vertices.insert(facet.vertices.begin(), facet.vertices.end());
+    }
+    corner_ = unite_vertices(cells_, {vertices.begin(), vertices.end()}, options_.same);
+  }
+
+  static std::uint64_t line_of(int plane, int other) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(plane, other))) << 32 |
+           static_cast<std::uint32_t>(std::max(plane, other));
+  }
+
+  // All vertices of shown facets on each line that two planes have in common, in order.
+  void gather_lines() {
+    for (const int f : shown_) {
+      const CellFacet& own = facet(f);
+      for (std::size_t i = 0; i < own.vertices.size(); ++i) {
+        std::vector<int>& on = lines_[line_of(own.plane, own.edge_planes[i])];
+        on.push_back(own.vertices[i]);
+        on.push_back(own.vertices[(i + 1) % own.vertices.size()]);
+      }
+    }
+    for (auto& [key, on] : lines_) {
+      const Vec3 way = cells_.plane(static_cast<int>(key >> 32))
+                           .normal.cross(cells_.plane(static_cast<int>(key & 0xffffffff)).normal);
+      std::sort(on.begin(), on.end());
+      on.erase(std::unique(on.begin(), on.end()), on.end());
+      std::stable_sort(on.begin(), on.end(), [&](int a, int b) {
+        return way.dot(cells_.vertex(a)) < way.dot(cells_.vertex(b));
+      });
+    }
+  }
+
+  // Calls visit(from, to) for the corners along a facet's outline, also those of its neighbours.
+  template <typename Visit>
+  void visit_edges(int f, const Visit& visit) const {
+    const CellFacet& own = facet(f);
+    for (std::size_t i = 0; i < own.vertices.size(); ++i) {
+      const std::vector<int>& on = lines_.at(line_of(own.plane, own.edge_planes[i]));
+      const auto from = std::find(on.begin(), on.end(), own.vertices[i]),
+                 to = std::find(on.begin(), on.end(), own.vertices[(i + 1) % own.vertices.size()]);
+      const std::ptrdiff_t step = from < to ? 1 : -1;
+      for (auto at = from; at != to; at += step) {
+        const int a = corner_[static_cast<std::size_t>(*at)],
+                  b = corner_[static_cast<std::size_t>(*(at + step))];
+        if (a != b) visit(a, b);
+      }
+    }
+  }
+
+  std::size_t free_side_of(int f) const {
+    return label_of(facet(f).cells[0]) == Label::free ? 0 : 1;
+  }
+
+  // Facets of one plane and side that share an edge are one sheet.
+  void join() {
+    DisjointSets sets(shown_.size());
+    std::map<std::tuple<int, std::size_t, int, int>, std::size_t> at_edge;
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+      visit_edges(shown_[i], [&](int a, int b) {
+        const auto [found, is_new] = at_edge.try_emplace(
+            {facet(shown_[i]).plane, free_side_of(shown_[i]), std::min(a, b), std::max(a, b)}, i);
+        if (!is_new) sets.unite(found->second, i);
+      });
+    std::vector<int> sheet_of(shown_.size(), -1);
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      int& sheet = sheet_of[sets.find(i)];
+      if (sheet < 0) {
+        sheet = static_cast<int>(sheets_.size());
+        sheets_.push_back({facet(shown_[i]).plane, free_side_of(shown_[i]), {}, {}});
+      }
+      sheets_[static_cast<std::size_t>(sheet)].facets.push_back(shown_[i]);
+    }
+  }
+
+  // Sheets whose outlines pass no corner twice: one that does is parted there. Polygons that touch
+  // themselves are valid, but few programs triangulate them.
+  void trace_sheets() {
+    std::vector<Sheet> traced;
+    while (!sheets_.empty()) {
+      Sheet sheet = std::move(sheets_.back());
+      sheets_.pop_back();
+      trace_loops(sheet);
+      const auto pinch = find_pinch(sheet);
+      if (!pinch || !part_at(sheet, *pinch)) traced.push_back(std::move(sheet));
+    }
+    sheets_ = std::move(traced);
+  }
+
+  static std::optional<int> find_pinch(const Sheet& sheet) {
+    std::set<int> passed;
+    for (const CornerLoop& loop : sheet.loops)
+      for (const int corner : loop)
+        if (!passed.insert(corner).second) return corner;
+    return std::nullopt;
+  }
+
+  // Gives each facet of a sheet to the one of the parts that meet in a corner from which it is
+  // reached first; false where there is but one.
+  bool part_at(const Sheet& sheet, int corner) {
+    const std::size_t count = sheet.facets.size();
+    std::map<Edge, std::vector<std::size_t>> at_edge;
+    for (std::size_t i = 0; i < count; ++i)
+      visit_edges(sheet.facets[i], [&](int a, int b) { at_edge[std::minmax(a, b)].push_back(i); });
+    DisjointSets wedges(count);
+    std::vector<std::vector<std::size_t>> beside(count);
+    std::set<std::size_t> around;
+    for (const auto& [edge, facets] : at_edge)
+      for (const std::size_t i : facets) {
+        const bool meets = edge.first == corner || edge.second == corner;
+        if (meets) around.insert(i);
+        if (i == facets[0]) continue;
+        if (meets) wedges.unite(facets[0], i);
+        beside[facets[0]].push_back(i), beside[i].push_back(facets[0]);
+      }
+    std::vector<std::size_t> reached(around.begin(), around.end());
+    std::vector<int> part_of(count, -1);
+    std::map<std::size_t, int> parts;
+    for (const std::size_t i : reached)
+      part_of[i] = parts.try_emplace(wedges.find(i), static_cast<int>(parts.size())).first->second;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+      for (const std::size_t next : beside[reached[k]])
+        if (part_of[next] < 0) part_of[next] = part_of[reached[k]], reached.push_back(next);
+    if (parts.size() < 2) return false;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      Sheet part{sheet.plane, sheet.free_side, {}, {}};
+      for (std::size_t i = 0; i < count; ++i)
+        if (part_of[i] == static_cast<int>(p)) part.facets.push_back(sheet.facets[i]);
+      sheets_.push_back(std::move(part));
+    }
+    return true;
+  }
+
+  // Of the edges that leave a corner the first one clockwise from where the loop came from.
+  int turn(int before, int at, const std::vector<int>& next, const Vec3& normal) const {
+    const Vec3 back = cells_.vertex(before) - cells_.vertex(at);
+    int best = next[0];
+    double least = 1e9;
+    for (const int candidate : next) {
+      const Vec3 way = cells_.vertex(candidate) - cells_.vertex(at);
+      double angle = std::atan2(normal.dot(way.cross(back)), way.dot(back));
+      if (angle <= 1e-9) angle += 2 * std::numbers::pi;
+      if (angle < least) least = angle, best = candidate;
+    }
+    return best;
+  }
+
+  void trace_loops(Sheet& sheet) const {
+    std::map<Edge, int> count;
+    for (const int f : sheet.facets) visit_edges(f, [&](int a, int b) { ++count[{a, b}]; });
+    std::map<int, std::vector<int>> next;
+    for (const auto& [edge, times] : count) {
+      const auto back = count.find({edge.second, edge.first});
+      const int left = times - (back == count.end() ? 0 : back->second);
+      if (left > 0) next[edge.first].push_back(edge.second);
+    }
+    const Vec3& normal = cells_.plane(sheet.plane).normal;
+    while (!next.empty()) {
+      CornerLoop loop;
+      const int start = next.begin()->first;
+      int before = -1, at = start;
+      do {
+        const auto leaving = next.find(at);
+        if (leaving == next.end()) break;
+        const int to = before < 0 ? leaving->second[0] : turn(before, at, leaving->second, normal);
+        std::erase(leaving->second, to);
+        if (leaving->second.empty()) next.erase(leaving);
+        loop.push_back(at);
+        before = at, at = to;
+      } while (at != start);
+      if (at == start) part(loop, sheet.loops);
+    }
+  }
+
+  // A loop that passes a corner twice is several.
+  static void part(const CornerLoop& loop, std::vector<CornerLoop>& parts) {
+    CornerLoop open;
+    for (const int corner : loop) {
+      const auto passed = std::find(open.begin(), open.end(), corner);
+      if (passed != open.end()) {
+        if (open.end() - passed >= 3) parts.emplace_back(passed, open.end());
+        open.erase(passed, open.end());
+      }
+      open.push_back(corner);
+    }
+    if (open.size() >= 3) parts.push_back(std::move(open));
+  }
+
+  // Corners where some loop turns; at others all go straight on.
+  void mark_turns(const Sheet& sheet) {
+    constexpr double kStraight = 1e-6;  // [m]
+    for (const CornerLoop& loop : sheet.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec3 &a = cells_.vertex(loop[(i + loop.size() - 1) % loop.size()]),
+                   &b = cells_.vertex(loop[i]), &c = cells_.vertex(loop[(i + 1) % loop.size()]);
+        const double off = (b - a).cross(c - a).norm() / std::max(1e-9, (c - a).norm());
+        if (off > kStraight || (b - a).dot(c - b) < 0) turns_.insert(loop[i]);
+      }
+  }
+
+  std::vector<Vec3> ring_of(const CornerLoop& loop) const {
+    std::vector<Vec3> ring;
+    for (const int corner : loop)
+      if (turns_.contains(corner)) ring.push_back(cells_.vertex(corner));
+    return ring;
+  }
+
+  // The polygons of a sheet, each with the holes in it.
+  void cut_out(const Sheet& sheet, std::vector<Interface>& result) const {
+    const PlaneFrame frame = frame_of(cells_.plane(sheet.plane));
+    struct Ring {
+      std::vector<Vec3> points;
+      std::vector<Vec2> flat;
+      double area;
+    };
+    std::vector<Ring> outers, holes;
+    for (const CornerLoop& loop : sheet.loops) {
+      Ring ring{ring_of(loop), {}, 0};
+      if (ring.points.size() < 3) continue;
+      for (const Vec3& p : ring.points) ring.flat.push_back(frame.to_plane(p));
+      ring.area = doubled_area(ring.flat) / 2;
+      if (std::abs(ring.area) < options_.min_area) continue;
+      (ring.area > 0 ? outers : holes).push_back(std::move(ring));
+    }
+    double area = 0, supported = 0;
+    for (const int f : sheet.facets) {
+      const FacetEvidence& e = evidence_.facets[static_cast<std::size_t>(f)];
+      area += e.area, supported += e.supported[sheet.free_side];
+    }
+    const auto placed = [&](std::vector<Vec3> ring) {
+      if (sheet.free_side == 1) std::reverse(ring.begin(), ring.end());
+      return ring;
+    };
+    for (Ring& outer : outers) {
+      Interface shown{.plane = sheet.plane,
+                      .is_flipped = sheet.free_side == 1,
+                      .loops = {placed(outer.points)},
+                      .area = area,
+                      .supported = supported,
+                      .facets = sheet.facets};
+      for (const Ring& hole : holes) {
+        // A place just inside of the hole.
+        Vec2 middle = Vec2::Zero();
+        for (const Vec2& p : hole.flat) middle += p / static_cast<double>(hole.flat.size());
+        if (is_inside({outer.flat}, 0.999 * hole.flat[0] + 0.001 * middle) ||
+            is_inside({outer.flat}, hole.flat[0]))
+          shown.loops.push_back(placed(hole.points));
+      }
+      result.push_back(std::move(shown));
+    }
+  }
+
+  const CellComplex& cells_;
+  const Evidence& evidence_;
+  const std::vector<Label>& labels_;
+  const InterfaceOptions& options_;
+  std::vector<int> shown_;   // facets
+  std::vector<int> corner_;  // that stands for each vertex
+  std::unordered_map<std::uint64_t, std::vector<int>> lines_;
+  std::vector<Sheet> sheets_;
+  std::set<int> turns_;
+};
+
+}  // namespace
+
+std::vector<Interface> find_interfaces(const CellComplex& cells, const Evidence& evidence,
+                                       const std::vector<Label>& labels,
+                                       const InterfaceOptions& options) {
+  return SheetTracer(cells, evidence, labels, options).trace();
+}
+
+}  // namespace scanworld::space

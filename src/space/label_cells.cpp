@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "label_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../min_cut.h"
+
+namespace scanworld::space {
+
+namespace {
+
+constexpr double kUnit = 1e5;     // of capacities, for each m2
+constexpr double kCertain = 1e4;  // [m2] that a viewpoint's cell is free
+
+std::int64_t capacity_of(double price) {
+  return static_cast<std::int64_t>(std::llround(price * kUnit));
+}
+
+class Labeller {
+ public:
+  Labeller(const CellComplex& cells, const Evidence& evidence, const LabelOptions& options)
+      : cells_(cells), evidence_(evidence), options_(options) {}
+
+  std::vector<Label> label() {
+    // What a cell is where it is not free.
+    std::vector<Label> other(cells_.cells().size(), Label::solid), labels;
+    for (int round = 0; round < options_.rounds; ++round) {
+      std::vector<Label> found = cut(other);
+      if (found == labels) break;
+      labels = std::move(found);
+      other = choose_other(labels);
+    }
+    for (std::size_t c = 0; c < labels.size(); ++c)
+      if (labels[c] != Label::free) labels[c] = other[c];
+    return labels;
+  }
+
+ private:
+  // The least price where each cell may be free or else what `other` says.
+  std::vector<Label> cut(const std::vector<Label>& other) const {
+    const int source = static_cast<int>(other.size()), sink = source + 1;
+    std::vector<FlowEdge<std::int64_t>> edges;
+    std::vector<double> free(other.size()), taken(other.size());
+    for (std::size_t c = 0; c < other.size(); ++c) {
+      const CellEvidence& e = evidence_.cells[c];
+      free[c] = e.front * options_.front + e.start + (e.has_viewpoint ? kCertain : 0);
+      // What has points and is before what is unknown costs as much as before what is free.
+      taken[c] = (other[c] == Label::solid ? e.back * options_.back : 0) +
+                 (1 - e.seen()) * e.volume * options_.volume;
+    }
+    for (std::size_t f = 0; f < cells_.facets().size(); ++f) {
+      const CellFacet& facet = cells_.facets()[f];
+      const auto price = [&](std::size_t free_side) {
+        const int c = facet.cells[1 - free_side];
+        return capacity_of(price_of(facet, evidence_.facets[f], free_side,
+                                    other[static_cast<std::size_t>(c)], options_));
+      };
+      if (facet.cells[0] >= 0 && facet.cells[1] >= 0) {
+        edges.push_back({facet.cells[0], facet.cells[1], price(0), price(1)});
+      } else {
+        const auto c = static_cast<std::size_t>(std::max(facet.cells[0], facet.cells[1]));
+        taken[c] += border_price(f, c);
+      }
+    }
+    for (const Passage& p : evidence_.passages)
+      edges.push_back({p.from, p.to, capacity_of(p.weight), 0});
+    for (std::size_t c = 0; c < other.size(); ++c) {
+      // What is common to both does not decide.
+      const std::int64_t lead = capacity_of(free[c]) - capacity_of(taken[c]);
+      if (lead > 0) edges.push_back({source, static_cast<int>(c), lead, 0});
+      if (lead < 0) edges.push_back({static_cast<int>(c), sink, -lead, 0});
+    }
+    const std::vector<char> is_free = min_cut(other.size() + 2, source, sink, edges);
+    std::vector<Label> labels = other;
+    for (std::size_t c = 0; c < labels.size(); ++c)
+      if (is_free[c]) labels[c] = Label::free;
+    return labels;
+  }
+
+  // Of a free cell at the border of all.
+  double border_price(std::size_t facet, std::size_t cell) const {
+    const CellEvidence& e = evidence_.cells[cell];
+    return evidence_.facets[facet].area *
+           std::max(options_.border_crossed, options_.border * (1 - e.seen()));
+  }
+
+  // Whether each cell is solid or unknown where it is not free, as its free neighbours would have
+  // it: what is cheaper, and of equal ones unknown.
+  std::vector<Label> choose_other(const std::vector<Label>& labels) const {
+    std::vector<double> solid(labels.size()), unknown(labels.size());
+    for (std::size_t c = 0; c < labels.size(); ++c)
+      unknown[c] = options_.back * evidence_.cells[c].back;
+    for (std::size_t f = 0; f < cells_.facets().size(); ++f) {
+      const CellFacet& facet = cells_.facets()[f];
+      for (const std::size_t side : {0, 1}) {
+        const int free = facet.cells[side], c = facet.cells[1 - side];
+        if (free < 0 || c < 0 || labels[static_cast<std::size_t>(free)] != Label::free) continue;
+        const auto i = static_cast<std::size_t>(c);
+        solid[i] += price_of(facet, evidence_.facets[f], side, Label::solid, options_);
+        unknown[i] += price_of(facet, evidence_.facets[f], side, Label::unknown, options_);
+      }
+    }
+    std::vector<Label> other(labels.size());
+    for (std::size_t c = 0; c < labels.size(); ++c)
+      other[c] = solid[c] < unknown[c] ? Label::solid : Label::unknown;
+    return other;
+  }
+
+  const CellComplex& cells_;
+  const Evidence& evidence_;
+  const LabelOptions& options_;
+};
+
+}  // namespace
+
+double price_of(const CellFacet& facet, const FacetEvidence& e, std::size_t free_side, Label other,
+                const LabelOptions& options) {
+  if (facet.cells[0] < 0 || facet.cells[1] < 0) return 0;
+  const double right = e.supported[free_side], wrong = e.supported[1 - free_side];
+  const double rest = std::max(0.0, e.area - right - wrong - e.empty);
+  if (other == Label::unknown)
+    return rest * (e.is_bare ? options.open_bare : options.open) + wrong * options.reversed;
+  return right * options.supported + wrong * options.reversed + e.empty * options.empty +
+         (e.is_bare ? rest * (e.is_back ? options.of_plate : options.bare)
+                    : rest * options.beside + e.extended * options.extended);
+}
+
+std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,
+                               const LabelOptions& options) {
+  return Labeller(cells, evidence, options).label();
+}
+
+}  // namespace scanworld::space

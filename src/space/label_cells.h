@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "evidence.h"
+
+namespace scanworld::space {
+
+// Prices in m2 of what one pays for.
+struct LabelOptions {
+  double front = 1;              // for each m2 with points that what is before it is not free ...
+  double back = 2;               // ... that what is behind it is not solid
+  double supported = 0.01;       // for each m2 of a surface with points ...
+  double reversed = 0.6;         // ... the wrong way round
+  double empty = 1.2;            // ... where points should be
+  double beside = 0.045;         // ... beside points ...
+  double extended = 0.135;       // ... and more, as far as it is from them
+  double bare = 0.35;            // ... of a plane without points
+  double of_plate = 0.1;         // ... but the back of a plate
+  double open = 0.4;             // for each m2 between free and unknown, where a plane goes on ...
+  double open_bare = 0.1;        // ... and elsewhere
+  double border = 0.25;          // ... and at the border of the whole, ...
+  double border_crossed = 0.01;  // ... where lines of sight go
+  double volume = 0.2;           // for each m3 of free space that no line of sight crosses
+  int rounds = 4;                // at most, of cuts
+};
+
+enum class Label : std::uint8_t { free, solid, unknown };
+
+// What each cell is. A surface is between free and solid, an open side between free and unknown;
+// between solid and unknown there is nothing to pay.
+std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,
+                               const LabelOptions& options = {});
+
+// [m2] The price of a facet between a free cell and one that is solid or unknown, where the free
+// one is on its side 0 or 1.
+double price_of(const CellFacet& facet, const FacetEvidence& evidence, std::size_t free_side,
+                Label other, const LabelOptions& options = {});
+
+}  // namespace scanworld::space
