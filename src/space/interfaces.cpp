@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <set>
@@ -31,15 +32,16 @@ struct Sheet {
 std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>& vertices,
                                 double same) {
   std::vector<int> corner(cells.vertex_count(), -1);
-  std::map<std::array<int, 3>, std::vector<int>> at;
+  std::map<std::array<std::int64_t, 3>, std::vector<int>> at;
   for (const int v : vertices) {
     const Vec3& p = cells.vertex(v);
-    const Eigen::Array3i here = (p / same).array().floor().cast<int>();
+    const auto here = [&](int k) { return static_cast<std::int64_t>(std::floor(p[k] / same)); };
+    const std::int64_t i = here(0), j = here(1), k = here(2);
     const auto find_near = [&]() -> int {
       for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
           for (int z = -1; z <= 1; ++z) {
-            const auto near = at.find({here.x() + x, here.y() + y, here.z() + z});
+            const auto near = at.find({i + x, j + y, k + z});
             if (near == at.end()) continue;
             for (const int other : near->second)
               if ((cells.vertex(other) - p).norm() < same) return other;
@@ -49,7 +51,7 @@ std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>
     corner[static_cast<std::size_t>(v)] = find_near();
     if (corner[static_cast<std::size_t>(v)] >= 0) continue;
     corner[static_cast<std::size_t>(v)] = v;
-    at[{here.x(), here.y(), here.z()}].push_back(v);
+    at[{i, j, k}].push_back(v);
   }
   return corner;
 }

@@ -51,7 +51,7 @@ Sight::Sight(const surface::Surroundings& around, const std::vector<std::int32_t
 std::size_t Sight::direction_of(const Vec3& way) {
   const double azimuth = std::atan2(way.y(), way.x()) / (2 * std::numbers::pi) + 0.5,
                elevation =
-                   std::asin(std::clamp(way.z() / way.norm(), -1.0, 1.0)) / std::numbers::pi + 0.5;
+                   std::atan2(way.z(), std::hypot(way.x(), way.y())) / std::numbers::pi + 0.5;
   const int a = std::min(kAzimuths - 1, static_cast<int>(azimuth * kAzimuths)),
             e = std::min(kElevations - 1, static_cast<int>(elevation * kElevations));
   return static_cast<std::size_t>(e * kAzimuths + a);
