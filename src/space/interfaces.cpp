@@ -34,6 +34,8 @@ std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>
   std::vector<int> corner(cells.vertex_count(), -1);
   std::map<std::array<std::int64_t, 3>, std::vector<int>> at;
   for (const int v : vertices) {
+    corner[static_cast<std::size_t>(v)] = v;
+    if (same <= 0) continue;
     const Vec3& p = cells.vertex(v);
     const auto here = [&](int k) { return static_cast<std::int64_t>(std::floor(p[k] / same)); };
     const std::int64_t i = here(0), j = here(1), k = here(2);
@@ -48,10 +50,10 @@ std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>
           }
       return -1;
     };
-    corner[static_cast<std::size_t>(v)] = find_near();
-    if (corner[static_cast<std::size_t>(v)] >= 0) continue;
-    corner[static_cast<std::size_t>(v)] = v;
-    at[{i, j, k}].push_back(v);
+    if (const int near = find_near(); near >= 0)
+      corner[static_cast<std::size_t>(v)] = near;
+    else
+      at[{i, j, k}].push_back(v);
   }
   return corner;
 }
