@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cell_walk.h"
+
 namespace scanworld {
 
 // Some cells by their Morton codes (cell_walk.h), as bits of their blocks.
@@ -38,6 +40,10 @@ class CellSet {
   bool contains(std::uint64_t code) const {
     const Block* block = find(code >> kBlockBits);
     return block && contains(*block, code);
+  }
+  // Whether the cell with edges of this length [m] that a place is in is one of these.
+  bool contains(const Vec3& place, double edge) const {
+    return has_code(place, edge) && contains(morton_of(cell_of(place, edge)));
   }
   void insert(const CellSet& more) {
     for (const Block& from : more.blocks_) {

@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t kNearestViewpoints = 4;  // that may have seen a cell
 constexpr std::size_t kCellsPerPart = 4096;
 
-Vec3 middle_of(std::uint64_t code, double cell) {
-  return (cell_at(code).cast<double>() + Vec3::Constant(0.5)) * cell;
-}
-
 // Whether something stands between a cell and a viewpoint. The surface that the cell is of is left
 // first, over two cells at least: where it is looked along, cells of it are on the way.
 bool is_hidden(std::uint64_t cell, const Eigen::Vector3i& viewpoint, const CellSet& opaque) {
@@ -55,7 +51,7 @@ std::vector<OwnViewer> own_viewers(const PointCloud& cloud, std::span<const std:
     while (at != seen.end() && at->first < code) ++at;
     for (; at != seen.end() && at->first == code; ++at) viewers.push_back(at->second);
     const bool is_alone = viewers.size() == 1;
-    own.push_back({main_viewer(viewers, cloud.viewpoints, middle_of(code, cell)), is_alone});
+    own.push_back({main_viewer(viewers, cloud.viewpoints, middle_of_cell(code, cell)), is_alone});
   }
   return own;
 }
@@ -80,7 +76,7 @@ std::vector<std::size_t> find_viewers(std::span<const std::uint64_t> codes,
         if (!own[i].is_alone || !hides(codes[i], v)) viewers[i] = v;
         continue;
       }
-      const Vec3 middle = middle_of(codes[i], cell);
+      const Vec3 middle = middle_of_cell(codes[i], cell);
       for (std::size_t v = 0; v < by_distance.size(); ++v)
         by_distance[v] = {(viewpoints[v] - middle).squaredNorm(), v};
       const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(candidates);

@@ -54,6 +54,10 @@ inline Eigen::Vector3i cell_at(std::uint64_t morton) {
   return {gathered_bits(morton), gathered_bits(morton >> 1), gathered_bits(morton >> 2)};
 }
 
+inline Vec3 middle_of_cell(std::uint64_t morton, double edge) {
+  return (cell_at(morton).cast<double>() + Vec3::Constant(0.5)) * edge;
+}
+
 // Calls body(morton) for the cells on the way from a place, in units of cells, to the middle of the
 // cell `to`, which is left out, until it returns false (Amanatides and Woo 1987).
 template <typename Body>

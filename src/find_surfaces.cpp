@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "polygon.h"
 #include "surface/describe.h"
 #include "world/find_frame.h"
 
@@ -47,17 +46,9 @@ struct PiecesInPlanes {
 
 // [m2] of a piece where a plane has points.
 double area_on(const space::Cover& cover, const Piece& piece) {
-  std::vector<std::vector<Vec2>> loops;
-  for (const auto& loop : piece.loops) {
-    loops.emplace_back();
-    for (const Vec3& p : loop) loops.back().push_back(cover.frame.to_plane(p));
-  }
   const Raster& raster = cover.supported;
-  int cells = 0;
-  for (int y = 0; y < raster.height; ++y)
-    for (int x = 0; x < raster.width; ++x)
-      cells += raster.is_set(x, y) && is_inside(loops, raster.middle(x, y));
-  return cells * raster.cell * raster.cell;
+  return static_cast<double>(count_cells(raster, cover.frame, piece).set) * raster.cell *
+         raster.cell;
 }
 
 // Each surface between free and solid as a piece of the plane that it has points of; of none it is

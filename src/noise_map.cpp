@@ -47,11 +47,8 @@ std::vector<NoiseAtRange> noise_by_range(std::span<const NoiseSample> samples,
   std::map<std::pair<int, int>, std::vector<std::pair<double, double>>> bins;
   for (const NoiseSample& s : samples) {
     if (viewpoints.empty()) break;
-    const Vec3& from = s.viewer >= 0
-                           ? viewpoints[static_cast<std::size_t>(s.viewer)]
-                           : *std::ranges::min_element(viewpoints, {}, [&](const Vec3& v) {
-                               return (v - s.at).squaredNorm();
-                             });
+    const Vec3& from = s.viewer >= 0 ? viewpoints[static_cast<std::size_t>(s.viewer)]
+                                     : nearest_of(viewpoints, s.at);
     const Vec3 ray = from - s.at;
     const double range = ray.norm();
     if (!(range > 0)) continue;

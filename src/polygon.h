@@ -35,6 +35,14 @@ inline double doubled_area(const std::vector<Vec2>& ring) {
   return sum;
 }
 
+// The same of a ring in space, as a vector along its normal.
+inline Vec3 doubled_area(const std::vector<Vec3>& ring) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    sum += (ring[i] - ring[0]).cross(ring[i + 1] - ring[0]);
+  return sum;
+}
+
 // Whether a point is in a polygon, whose holes are loops as well: by the number of edges to its
 // right (the even-odd rule).
 inline bool is_inside(const std::vector<std::vector<Vec2>>& loops, const Vec2& p) {

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ inline Box3 grown(const Box3& box, double margin) {
 }
 
 // The one of some points, at least one, that is nearest to p; the first of equal ones.
-inline const Vec3& nearest_of(const std::vector<Vec3>& points, const Vec3& p) {
+inline const Vec3& nearest_of(std::span<const Vec3> points, const Vec3& p) {
   return *std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
     return (a - p).squaredNorm() < (b - p).squaredNorm();
   });

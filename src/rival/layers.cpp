@@ -108,9 +108,7 @@ struct Cells {
   double edge;  // [m]
   CellSet occupied;
 
-  bool has(const Vec3& p) const {
-    return has_code(p, edge) && occupied.contains(morton_of(cell_of(p, edge)));
-  }
+  bool has(const Vec3& p) const { return occupied.contains(p, edge); }
 };
 
 Cells find_cells(const Grid& grid) {

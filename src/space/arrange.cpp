@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "../polygon.h"
+
 namespace scanworld::space {
 
 namespace {
 
-double area_of(const std::vector<Vec3>& polygon) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    sum += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
-  return sum.norm() / 2;
-}
+double area_of(const std::vector<Vec3>& polygon) { return doubled_area(polygon).norm() / 2; }
 
 // The rectangle around polygons of a plane.
 std::vector<Vec3> around(const SpacePlane& plane) {

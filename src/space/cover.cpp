@@ -31,23 +31,38 @@ Raster widened(const Raster& raster, int more) {
   return wide;
 }
 
-// The distance of each cell from those that are set, by chamfers [m] (Borgefors 1986).
-std::vector<float> distance_from(const Raster& raster) {
+// The distance from what is supported by ways that are not blocked (Dijkstra 1959).
+std::vector<float> distance_around(const Cover& cover, const Raster& blocked) {
+  const Raster& raster = cover.supported;
   const auto step = static_cast<float>(raster.cell), slant = step * std::sqrt(2.0F);
-  std::vector<float> distance(raster.bits.size());
-  for (std::size_t i = 0; i < distance.size(); ++i) distance[i] = raster.bits[i] ? 0 : 1e9F;
-  const auto relax = [&](int x, int y, int way) {
-    float& d = distance[raster.index(x, y)];
-    const auto from = [&](int a, int b, float by) {
-      if (raster.contains(a, b)) d = std::min(d, distance[raster.index(a, b)] + by);
-    };
-    from(x - way, y, step), from(x, y - way, step);
-    from(x - way, y - way, slant), from(x + way, y - way, slant);
+  std::vector<float> distance(raster.bits.size(), Cover::kBlocked);
+  using Stop = std::tuple<float, int, int>;
+  std::priority_queue<Stop, std::vector<Stop>, std::greater<>> ahead;
+  const auto is_inside = [&](int x, int y) {
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a)
+        if (!raster.is_set(x + a, y + b)) return false;
+    return true;
   };
   for (int y = 0; y < raster.height; ++y)
-    for (int x = 0; x < raster.width; ++x) relax(x, y, 1);
-  for (int y = raster.height; y-- > 0;)
-    for (int x = raster.width; x-- > 0;) relax(x, y, -1);
+    for (int x = 0; x < raster.width; ++x)
+      if (raster.is_set(x, y)) {
+        distance[raster.index(x, y)] = 0;
+        if (!is_inside(x, y)) ahead.emplace(0.0F, x, y);
+      }
+  while (!ahead.empty()) {
+    const auto [d, x, y] = ahead.top();
+    ahead.pop();
+    const std::size_t i = raster.index(x, y);
+    if (d > distance[i] || (blocked.bits[i] && !raster.bits[i]) || d > cover.reach) continue;
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a) {
+        if (!raster.contains(x + a, y + b)) continue;
+        float& there = distance[raster.index(x + a, y + b)];
+        const float longer = d + (a != 0 && b != 0 ? slant : step);
+        if (longer < there) there = longer, ahead.emplace(longer, x + a, y + b);
+      }
+  }
   return distance;
 }
 
@@ -61,7 +76,7 @@ Cover cover_of(const Patch& patch, const Sight& sight, const CoverOptions& optio
       std::clamp(options.reach_share * std::sqrt(cover.area), options.min_reach, options.max_reach);
   const int more = static_cast<int>(std::ceil(cover.reach / cell));
   const Raster& supported = cover.supported = widened(patch.covered, more);
-  cover.distance = distance_from(supported);
+  cover.distance = distance_around(cover, empty_like(supported));
   cover.empty.assign(supported.bits.size(), 0);
   cover.stands_for.assign(supported.bits.size(), 0);
   for (int y = 0; y < patch.hit.height; ++y)
@@ -103,35 +118,6 @@ void block(const Cover& cover, const Cover& other, const surface::Seam& seam, Ra
     for (const auto& [x, y] : {std::pair{0.0, 0.0}, {step, 0.0}, {0.0, step}})
       set(blocked, q + Vec2(x, y));
   }
-}
-
-// The distance from what is supported by ways that are not blocked (Dijkstra 1959).
-std::vector<float> distance_around(const Cover& cover, const Raster& blocked) {
-  const Raster& raster = cover.supported;
-  const auto step = static_cast<float>(raster.cell), slant = step * std::sqrt(2.0F);
-  std::vector<float> distance(raster.bits.size(), Cover::kBlocked);
-  using Stop = std::tuple<float, int, int>;
-  std::priority_queue<Stop, std::vector<Stop>, std::greater<>> ahead;
-  for (int y = 0; y < raster.height; ++y)
-    for (int x = 0; x < raster.width; ++x)
-      if (raster.is_set(x, y)) {
-        distance[raster.index(x, y)] = 0;
-        ahead.emplace(0.0F, x, y);
-      }
-  while (!ahead.empty()) {
-    const auto [d, x, y] = ahead.top();
-    ahead.pop();
-    const std::size_t i = raster.index(x, y);
-    if (d > distance[i] || (blocked.bits[i] && !raster.bits[i]) || d > cover.reach) continue;
-    for (int b = -1; b <= 1; ++b)
-      for (int a = -1; a <= 1; ++a) {
-        if (!raster.contains(x + a, y + b)) continue;
-        float& there = distance[raster.index(x + a, y + b)];
-        const float longer = d + (a != 0 && b != 0 ? slant : step);
-        if (longer < there) there = longer, ahead.emplace(longer, x + a, y + b);
-      }
-  }
-  return distance;
 }
 
 }  // namespace

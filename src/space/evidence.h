@@ -30,8 +30,9 @@ struct CellEvidence {
   double volume = 0;  // [m3]
   double around = 0;  // [m2] of all its facets
 
-  // Whether many lines of sight cross it, 0 to 1.
-  double seen() const { return around > 0 ? std::min(1.0, crossed / (0.03 * around)) : 0; }
+  // Whether many lines of sight cross it, 0 to 1: 1 where they stand for so much of its facets.
+  static constexpr double kManyRays = 0.03;
+  double seen() const { return around > 0 ? std::min(1.0, crossed / (kManyRays * around)) : 0; }
 };
 
 // Rays that go from one cell to the next.

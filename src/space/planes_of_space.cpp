@@ -325,9 +325,7 @@ class PlaneMaker {
   }
 
   bool is_crossed(const Vec3& place) const {
-    const double cell = sight_.cell();
-    return has_code(place, cell) && free_.contains(morton_of(cell_of(place, cell))) &&
-           !sight_.is_occupied(place);
+    return free_.contains(place, sight_.cell()) && !sight_.is_occupied(place);
   }
 
   // Whether another face is behind much of a plate.

@@ -86,8 +86,7 @@ bool Sight::is_hidden(const Vec3& place, const Vec3& normal, const Vec3& to) con
   walk_cells((place + way * (kClear * cell_ / length)) / cell_, cell_of(to, cell_),
              [&](std::uint64_t code) {
                if (!occupied_.contains(code)) return true;
-               const Vec3 middle = (cell_at(code).cast<double>().array() + 0.5) * cell_;
-               hidden = normal.dot(middle - place) > kClear * cell_;
+               hidden = normal.dot(middle_of_cell(code, cell_) - place) > kClear * cell_;
                return !hidden;
              });
   return hidden;
@@ -113,8 +112,6 @@ bool Sight::is_exposed(const Vec3& place, const Vec3& normal) const {
   });
 }
 
-bool Sight::is_occupied(const Vec3& place) const {
-  return has_code(place, cell_) && occupied_.contains(morton_of(cell_of(place, cell_)));
-}
+bool Sight::is_occupied(const Vec3& place) const { return occupied_.contains(place, cell_); }
 
 }  // namespace scanworld::space

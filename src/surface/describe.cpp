@@ -33,23 +33,6 @@ FlatPolygon flatten(const PlaneFrame& frame, const Piece& piece) {
   return polygon;
 }
 
-// The share of the patch's cells in the polygon that have points.
-double coverage(const Patch& patch, const FlatPolygon& polygon) {
-  std::size_t inside = 0, covered = 0;
-  const Raster& hit = patch.hit;
-  const Vec2 low = ((polygon.box.min() - hit.low) / hit.cell).array().floor(),
-             high = ((polygon.box.max() - hit.low) / hit.cell).array().ceil();
-  for (int y = std::max(0, static_cast<int>(low.y()));
-       y < std::min(hit.height, static_cast<int>(high.y())); ++y)
-    for (int x = std::max(0, static_cast<int>(low.x()));
-         x < std::min(hit.width, static_cast<int>(high.x())); ++x) {
-      if (!polygon.contains(hit.middle(x, y))) continue;
-      ++inside;
-      covered += hit.is_set(x, y);
-    }
-  return inside > 0 ? static_cast<double>(covered) / static_cast<double>(inside) : 1;
-}
-
 FoundSurface surface_of(const Plane& plane, const Piece& piece, Source source) {
   return {.plane = plane,
           .outer = piece.loops[0],
@@ -59,16 +42,34 @@ FoundSurface surface_of(const Plane& plane, const Piece& piece, Source source) {
 
 FoundSurface describe(const PointCloud& cloud, std::span<const std::uint32_t> members,
                       const Patch& patch, const Piece& piece) {
-  const FlatPolygon polygon = flatten(patch.frame, piece);
+  const CellsInside cells = count_cells(patch.hit, patch.frame, piece);
   FoundSurface surface = surface_of(patch.plane, piece, Source::measured);
   PointSums sums;
   for (std::uint32_t i : members) sums.add(cloud, i, patch.plane);
   sums.describe(cloud, surface);
-  surface.support.coverage = coverage(patch, polygon);
+  // The share of the patch's cells in the polygon that have points.
+  surface.support.coverage =
+      cells.all > 0 ? static_cast<double>(cells.set) / static_cast<double>(cells.all) : 1;
   return surface;
 }
 
 }  // namespace
+
+CellsInside count_cells(const Raster& raster, const PlaneFrame& frame, const Piece& piece) {
+  const FlatPolygon polygon = flatten(frame, piece);
+  CellsInside cells;
+  const Vec2 low = ((polygon.box.min() - raster.low) / raster.cell).array().floor(),
+             high = ((polygon.box.max() - raster.low) / raster.cell).array().ceil();
+  for (int y = std::max(0, static_cast<int>(low.y()));
+       y < std::min(raster.height, static_cast<int>(high.y())); ++y)
+    for (int x = std::max(0, static_cast<int>(low.x()));
+         x < std::min(raster.width, static_cast<int>(high.x())); ++x) {
+      if (!polygon.contains(raster.middle(x, y))) continue;
+      ++cells.all;
+      cells.set += raster.is_set(x, y);
+    }
+  return cells;
+}
 
 std::vector<FoundSurface> describe(const PointCloud& cloud, const Members& members,
                                    const std::vector<Patch>& patches,

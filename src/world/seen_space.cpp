@@ -112,8 +112,7 @@ std::vector<SurfacePlace> places_on_surfaces(const World& world, const CellSet& 
       for (double x = box.min().x() + step / 2; x < box.max().x(); x += step) {
         if (!is_inside(rings, {x, y})) continue;
         const Vec3 at = frame.to_space({x, y});
-        if (has_code(at, cell) && occupied.contains(morton_of(cell_of(at, cell))))
-          places.push_back({at, s.plane.normal});
+        if (occupied.contains(at, cell)) places.push_back({at, s.plane.normal});
       }
   }
   return places;

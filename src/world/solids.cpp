@@ -10,6 +10,7 @@
 #include <map>
 
 #include "../error.h"
+#include "../polygon.h"
 
 namespace scanworld {
 
@@ -56,9 +57,7 @@ Mesh mesh_of(const OrientedBox& box) {
 }
 
 Mesh mesh_of(const ConvexPrism& prism) {
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < prism.base.size(); ++i)
-    normal += (prism.base[i] - prism.base[0]).cross(prism.base[i + 1] - prism.base[0]);
+  const Vec3 normal = doubled_area(prism.base);
   std::vector<Vec3> base = prism.base;
   if (normal.dot(prism.extrusion) > 0) std::reverse(base.begin(), base.end());
   return extrude(base, prism.extrusion);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "../polygon.h"
 #include "geos.h"
 #include "hull_volume.h"
 #include "surface_rings.h"
@@ -219,9 +220,7 @@ class Validator {
   }
   void check_convex(const std::string& name, const ConvexPrism& p) {
     const std::size_t n = p.base.size();
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 1; i + 1 < n; ++i)
-      sum += (p.base[i] - p.base[0]).cross(p.base[i + 1] - p.base[0]);
+    const Vec3 sum = doubled_area(p.base);
     if (!(sum.norm() > 0)) return report("{}: the base has no area", name);
     const Vec3 normal = sum.normalized();
     if (!(std::abs(normal.dot(p.extrusion)) > 0))
