@@ -79,3 +79,32 @@ TEST_CASE("corners that are not finite make no polygon") {
     for (const geos::Rings& part : geos::make_valid({{{0, 0}, {1, 0}, {1, bad}, {0, 1}}}))
       CHECK_FALSE(geos::find_flaw(part));
 }
+
+TEST_CASE("triangles of a polygon with many holes cover it, however it is turned") {
+  Random random(4);
+  for (int turn = 0; turn < 60; ++turn) {
+    const Eigen::Rotation2Dd way(random.uniform(0, 6));
+    geos::Rings rings = {block(0, 0, 8, 10)};
+    for (int x = 0; x < 4; ++x)
+      for (int y = 0; y < 5; ++y)
+        if (random.uniform() < 0.7) {
+          const double low = random.uniform() < 0.5 ? 0.5 : random.uniform(0.3, 0.7);
+          rings.push_back(block(2 * x + low, 2 * y + low, 0.8, random.uniform(0.4, 1.2)));
+        }
+    for (auto& ring : rings)
+      for (Vec2& p : ring) p = way * p;
+    const auto triangles = geos::triangulate(rings);
+    REQUIRE(triangles);
+    double twice = 0, expected = std::abs(doubled_area(rings[0]));
+    for (std::size_t h = 1; h < rings.size(); ++h) expected -= std::abs(doubled_area(rings[h]));
+    for (const auto& t : *triangles) {
+      CHECK(doubled_area(std::vector<Vec2>(t.begin(), t.end())) >= 0);
+      twice += doubled_area(std::vector<Vec2>(t.begin(), t.end()));
+      for (const Vec2& p : t)
+        CHECK(std::any_of(rings.begin(), rings.end(), [&](const auto& ring) {
+          return std::find(ring.begin(), ring.end(), p) != ring.end();
+        }));
+    }
+    CHECK(twice == doctest::Approx(expected));
+  }
+}

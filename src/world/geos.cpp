@@ -6,6 +6,7 @@
 #include <geos_c.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "../polygon.h"
@@ -143,21 +144,52 @@ std::vector<Rings> make_valid(const Rings& rings) {
   return result;
 }
 
-std::optional<std::vector<std::array<Vec2, 3>>> triangulate(const Rings& rings) {
+namespace {
+
+using Triangles = std::vector<std::array<Vec2, 3>>;
+
+std::optional<Triangles> try_to_triangulate(const Rings& rings) {
   const Context context;
   const Geometry polygon = polygon_of(context, rings);
   if (!polygon) return std::nullopt;
   const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()),
                         Free{context.handle});
   if (!result) return std::nullopt;
-  std::vector<std::array<Vec2, 3>> triangles;
+  Triangles triangles;
   const int count = GEOSGetNumGeometries_r(context.handle, result.get());
   for (int i = 0; i < count; ++i) {
     const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, result.get(), i);
     const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
-    const Vec2 ab = p[1] - p[0], ac = p[2] - p[0];
-    const bool ccw = ab.x() * ac.y() - ab.y() * ac.x() > 0;
-    triangles.push_back(ccw ? std::array{p[0], p[1], p[2]} : std::array{p[0], p[2], p[1]});
+    triangles.push_back({p[0], p[1], p[2]});
+  }
+  return triangles;
+}
+
+}  // namespace
+
+std::optional<Triangles> triangulate(const Rings& rings) {
+  std::optional<Triangles> triangles = try_to_triangulate(rings);
+  // The library joins holes to the outline along an axis, and fails on some polygons with many
+  // of them: turned, they go.
+  for (double angle = 0.5; !triangles && angle < 3; angle += 0.7) {
+    const Eigen::Rotation2Dd turn(angle);
+    std::map<std::pair<double, double>, Vec2> original;
+    Rings turned = rings;
+    for (auto& ring : turned)
+      for (Vec2& p : ring) {
+        const Vec2 q = turn * p;
+        original.try_emplace({q.x(), q.y()}, p);
+        p = q;
+      }
+    triangles = try_to_triangulate(turned);
+    if (!triangles) continue;
+    for (auto& triangle : *triangles)
+      for (Vec2& p : triangle) p = original.at({p.x(), p.y()});
+  }
+  if (!triangles) return std::nullopt;
+  for (auto& t : *triangles) {
+    const Vec2 ab = t[1] - t[0], ac = t[2] - t[0];
+    if (ab.x() * ac.y() - ab.y() * ac.x() <= 0) std::swap(t[1], t[2]);
   }
   return triangles;
 }
