@@ -15,11 +15,11 @@ namespace scanworld::rival {
 namespace {
 
 constexpr double kLargestRadius = 100;  // [m] of anything that is called round
-constexpr int kMost = 6;                // parameters of a shape
+constexpr int kMostParameters = 6;      // parameters of a shape
 constexpr double kWidest = 1.3;         // [rad] half angle of a cone; a wider one is a disc
 
-using Parameters = Eigen::Matrix<double, kMost, 1>;
-using NormalMatrix = Eigen::Matrix<double, kMost, kMost>;
+using Parameters = Eigen::Matrix<double, kMostParameters, 1>;
+using NormalMatrix = Eigen::Matrix<double, kMostParameters, kMostParameters>;
 
 double weight_of(const Site& site, double most) { return std::min<double>(site.points, most); }
 

@@ -34,7 +34,12 @@ std::optional<Clearance::Found> Clearance::find(const Slab& slab, std::size_t fa
   const Vec2 low = slab.bounds.min(), high = slab.bounds.max();
   for (const auto& triangle : triangles_[face]) {
     std::vector<Vec3> ring;
-    for (const Vec3& p : triangle) ring.push_back(slab.to_slab(p));
+    Box3 box;
+    for (const Vec3& p : triangle) ring.push_back(slab.to_slab(p)), box.extend(ring.back());
+    if (box.max().z() < 0 || box.min().z() > slab.depth ||
+        (box.min().head<2>().array() > high.array()).any() ||
+        (box.max().head<2>().array() < low.array()).any())
+      continue;
     ring = clipped(ring, {0, 0, -1}, 0.0);
     ring = clipped(ring, {0, 0, 1}, slab.depth - options_.tolerance);
     for (int k = 0; k < 2 && !ring.empty(); ++k) {

@@ -14,11 +14,12 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kSquare = 0.985;     // cosine: two faces at a right angle, within 10 degrees
-constexpr double kClosed = 0.7;       // of a face's outline that must have neighbours
-constexpr double kMinBeside = 0.02;   // [m] lower sides tell nothing
-constexpr double kSameFace = 0.9999;  // cosine between a face and the slab's that covers it
-constexpr double kRecess = 0.002;     // [m] it may be so far inside
+constexpr double kSquare = 0.985;          // cosine: two faces at a right angle, within 10 degrees
+constexpr double kClosed = 0.7;            // of a face's outline that must have neighbours
+constexpr double kMinBeside = 0.02;        // [m] lower sides tell nothing
+constexpr double kSameFace = 0.9999;       // cosine between a face and the slab's that covers it
+constexpr std::size_t kBoxesForPrism = 4;  // robots at 60 Hz sink into prisms, not into boxes
+constexpr double kRecess = 0.002;          // [m] it may be so far inside
 
 // How far the neighbour at a convex corner goes on backwards [m].
 double extent_behind(const Face& face, const Face& neighbour) {
@@ -79,7 +80,7 @@ class Cover {
     std::vector<Slab> rest = make_prisms(covered);
     if (rest.empty()) return boxes;
     std::vector<Slab> prisms = make_prisms(done_);
-    if (prisms.size() < boxes.size() + rest.size()) return prisms;
+    if (kBoxesForPrism * prisms.size() < boxes.size() + rest.size()) return prisms;
     boxes.insert(boxes.end(), rest.begin(), rest.end());
     return boxes;
   }
