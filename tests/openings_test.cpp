@@ -117,6 +117,14 @@ TEST_CASE("lines of sight are counted where they go through, not where they end 
   CHECK(openings[1].evidence.find("1 lines of sight") != std::string::npos);
 }
 
+TEST_CASE("a notch in one face that no line of sight goes through is where a thing stands") {
+  const World world = wall_with_door_and_window();
+  const std::vector<SightLine> lines = {{{2.5, -2, 1}, {2.5, 2, 1}}};  // through the wall
+  const std::vector<Opening> openings = find_openings(world, lines);
+  REQUIRE(openings.size() == 1);
+  CHECK(openings[0].kind == OpeningKind::window);
+}
+
 TEST_CASE("the openings of the drawn worlds are found again") {
   for (const char* name : {"room", "office", "stairs"}) {
     CAPTURE(name);

@@ -217,6 +217,8 @@ class OpeningFinder {
                  height = twin ? std::min(gap.height(), twin->height()) : gap.height();
     OpeningKind kind = OpeningKind::window;
     if (gap.is_low) {
+      // In one face alone, and nobody saw through: a thing stands there.
+      if (!twin && !lines_.empty() && gap.lines == 0) return std::nullopt;
       if (height < options_.min_door_height && !twin) return std::nullopt;
       kind = height >= options_.min_door_height && height <= options_.max_door_height &&
                      width <= options_.max_door_width
