@@ -25,8 +25,8 @@ double energy_of(const space::CellComplex& cells, const space::Evidence& evidenc
     const space::CellEvidence& e = evidence.cells[c];
     if (labels[c] != space::Label::free)
       sum += o.front * e.front + e.start + (e.has_viewpoint ? 1e4 : 0);
-    else if (e.crossed == 0)
-      sum += o.volume * e.volume;
+    else
+      sum += (1 - e.seen()) * o.volume * e.volume;
     if (labels[c] != space::Label::solid) sum += o.back * e.back;
   }
   for (std::size_t f = 0; f < evidence.facets.size(); ++f) {
@@ -170,6 +170,7 @@ TEST_CASE("more rounds never cost more, and no labels by chance cost less than t
     }
     // Of those that take as solid what the answer takes as solid, the cut is the best.
     const std::vector<space::Label> found = space::label_cells(cells, evidence, {.rounds = 20});
+    before = energy_of(cells, evidence, found, {});
     for (int k = 0; k < 300; ++k) {
       std::vector<space::Label> other = found;
       for (space::Label& label : other)

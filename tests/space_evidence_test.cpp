@@ -87,7 +87,8 @@ TEST_CASE("cells sum what is supported around them") {
   CHECK(front == doctest::Approx(supported));
   CHECK(back == doctest::Approx(supported));
   CHECK(volume ==
-        doctest::Approx(grown(Box3(Vec3::Zero(), kRoomSize), 0.25).volume()).epsilon(0.02));
+        doctest::Approx(grown(Box3(Vec3::Zero(), kRoomSize), space::ArrangeOptions{}.pad).volume())
+            .epsilon(0.03));
 }
 
 TEST_CASE("the sums of rays hang neither on threads nor on the rays' order") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../disjoint_sets.h"
 #include "../min_cut.h"
 
 namespace scanworld::space {
@@ -120,11 +121,34 @@ double price_of(const CellFacet& facet, const FacetEvidence& e, std::size_t free
   if (facet.cells[0] < 0 || facet.cells[1] < 0) return 0;
   const double right = e.supported[free_side], wrong = e.supported[1 - free_side];
   const double rest = std::max(0.0, e.area - right - wrong - e.empty);
+  const double each = e.is_bare ? options.bare_facet : 0;
   if (other == Label::unknown)
-    return rest * (e.is_bare ? options.open_bare : options.open) + wrong * options.reversed;
-  return right * options.supported + wrong * options.reversed + e.empty * options.empty +
+    return each + rest * (e.is_bare ? options.open_bare : options.open) + wrong * options.reversed;
+  return each + right * options.supported + wrong * options.reversed + e.empty * options.empty +
          (e.is_bare ? rest * (e.is_back ? options.of_plate : options.bare)
                     : rest * options.beside + e.extended * options.extended);
+}
+
+std::vector<Label> fill_pockets(const CellComplex& cells, const Evidence& evidence,
+                                std::vector<Label> labels, const LabelOptions& options) {
+  DisjointSets sets(labels.size());
+  for (const CellFacet& facet : cells.facets()) {
+    if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
+    const auto a = static_cast<std::size_t>(facet.cells[0]),
+               b = static_cast<std::size_t>(facet.cells[1]);
+    if (labels[a] == Label::free && labels[b] == Label::free) sets.unite(a, b);
+  }
+  std::vector<double> volume(labels.size());
+  std::vector<char> has_viewpoint(labels.size());
+  for (std::size_t c = 0; c < labels.size(); ++c) {
+    volume[sets.find(c)] += evidence.cells[c].volume;
+    has_viewpoint[sets.find(c)] |= evidence.cells[c].has_viewpoint;
+  }
+  for (std::size_t c = 0; c < labels.size(); ++c)
+    if (labels[c] == Label::free && !has_viewpoint[sets.find(c)] &&
+        volume[sets.find(c)] < options.min_volume)
+      labels[c] = Label::solid;
+  return labels;
 }
 
 std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,

@@ -15,13 +15,15 @@ struct LabelOptions {
   double empty = 1.2;            // ... where points should be
   double beside = 0.045;         // ... beside points ...
   double extended = 0.135;       // ... and more, as far as it is from them
-  double bare = 0.35;            // ... of a plane without points
+  double bare = 0.35;            // ... of a plane without points ...
+  double bare_facet = 0.008;     // ... and for each facet of it, however small
   double of_plate = 0.1;         // ... but the back of a plate
-  double open = 0.4;             // for each m2 between free and unknown, where a plane goes on ...
-  double open_bare = 0.1;        // ... and elsewhere
+  double open = 1;               // for each m2 between free and unknown, where a plane goes on ...
+  double open_bare = 0.25;       // ... and elsewhere
   double border = 0.25;          // ... and at the border of the whole, ...
   double border_crossed = 0.01;  // ... where lines of sight go
   double volume = 0.2;           // for each m3 of free space that no line of sight crosses
+  double min_volume = 0.05;      // [m3] of free space with no viewpoint in it; less is none
   int rounds = 4;                // at most, of cuts
 };
 
@@ -31,6 +33,10 @@ enum class Label : std::uint8_t { free, solid, unknown };
 // between solid and unknown there is nothing to pay.
 std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,
                                const LabelOptions& options = {});
+
+// Makes solid what is free, but too small to be in, if no viewpoint is in it.
+std::vector<Label> fill_pockets(const CellComplex& cells, const Evidence& evidence,
+                                std::vector<Label> labels, const LabelOptions& options = {});
 
 // [m2] The price of a facet between a free cell and one that is solid or unknown, where the free
 // one is on its side 0 or 1.

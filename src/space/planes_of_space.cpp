@@ -81,6 +81,11 @@ class PlaneMaker {
     return {median(off), quantile(off, 0.95)};
   }
 
+  bool comes_near(const Box3& box, const Plane& plane) const {
+    const double extent = plane.normal.cwiseAbs().dot(box.sizes()) / 2;
+    return std::abs(plane.signed_distance(box.center())) <= extent + options_.same_far;
+  }
+
   // For each surface the largest one that it is nearly in the plane of.
   void find_leaders() {
     const std::size_t count = in_.covers.size();
@@ -97,12 +102,14 @@ class PlaneMaker {
       const Box3 reach = grown(in_.patches[a].box, options_.same_reach);
       for (std::size_t j = i + 1; j < count && cuts(order[j]); ++j) {
         const std::size_t b = order[j];
-        if (leader_[b] != b || !reach.intersects(in_.patches[b].box) ||
-            in_.covers[a].plane.normal.dot(in_.covers[b].plane.normal) <
-                std::cos(options_.same_angle))
+        if (leader_[b] != b || in_.covers[a].plane.normal.dot(in_.covers[b].plane.normal) <
+                                   std::cos(options_.same_angle))
           continue;
+        const bool is_near = reach.intersects(in_.patches[b].box);
+        if (!is_near && !comes_near(in_.patches[b].box, in_.covers[a].plane)) continue;
         const auto [middle, most] = distances_off(in_.covers[b], in_.covers[a].plane);
-        if (middle <= near && most <= 2 * near) leader_[b] = a;
+        const double off = is_near ? near : options_.same_far;
+        if (middle <= off && most <= 2 * off) leader_[b] = a;
       }
     }
   }
@@ -309,8 +316,10 @@ class PlaneMaker {
     for (const End& end : ends) {
       const auto is_same = [&](const SpacePlane& p) {
         return std::abs(p.plane.normal.dot(end.plane.normal)) > kSameCosine &&
-               std::abs(p.plane.signed_distance(end.part.from)) < options_.same_edge &&
-               std::abs(p.plane.signed_distance(end.part.to)) < options_.same_edge;
+               std::abs(p.plane.signed_distance(end.plane.project(end.part.from))) <
+                   options_.same_edge &&
+               std::abs(p.plane.signed_distance(end.plane.project(end.part.to))) <
+                   options_.same_edge;
       };
       auto own = std::find_if(made.begin(), made.end(), is_same);
       if (own == made.end())

@@ -15,7 +15,8 @@ struct PlanesOptions {
   double same_plane = 0.012;  // [m] surfaces that look the same way are in one plane if they are no
                               // farther apart, or twice the noise, ...
   double same_angle = 0.07;   // [rad] ... and tilted by no more ...
-  double same_reach = 0.6;    // [m] ... and so near to each other
+  double same_reach = 0.6;    // [m] ... and so near to each other; ...
+  double same_far = 0.005;    // [m] others only if they are no farther apart
   double seam_reach = 0.15;   // [m] a plane goes on to both sides of where another one ends on it
   double edge_depth = 0.25;   // [m] the plane of an edge cuts to both sides of the face
   double edge_reach = 0.04;   // [m] ... and so far beyond the edge's ends

@@ -34,6 +34,7 @@ Box3 box_of(const std::vector<surface::Patch>& patches, const std::vector<Vec3>&
   Box3 box;
   for (const surface::Patch& p : patches)
     if (!p.box.isEmpty()) box.extend(p.box);
+  if (box.isEmpty()) box.extend(Vec3::Zero());  // no planes: any box, of one cell
   const Box3 near = grown(box, kNear);
   for (const Vec3& v : viewpoints)
     if (near.contains(v)) box.extend(v);
@@ -58,7 +59,9 @@ LabelledSpace label_space(const SpaceInput& in, const Outlook& outlook,
   std::vector<SpacePlane> planes = planes_of_space(in, outlook.sight, outlook.free, options.planes);
   Arrangement arrangement = arrange(planes, box_of(in.patches, viewpoints), options.arrange);
   Evidence evidence = find_evidence(arrangement, planes, outlook.covers, outlook.rays);
-  std::vector<Label> labels = label_cells(arrangement.cells, evidence, options.labels);
+  std::vector<Label> labels =
+      fill_pockets(arrangement.cells, evidence,
+                   label_cells(arrangement.cells, evidence, options.labels), options.labels);
   return {std::move(planes), std::move(arrangement), std::move(evidence), std::move(labels)};
 }
 
