@@ -25,7 +25,7 @@ struct ExportRequest {
   std::string format, up = "z", color = "scan", budget, sagitta, without;
   std::vector<double> origin = {0, 0, 0};
   std::vector<double> band = {ExportOptions{}.band_low, ExportOptions{}.band_high};
-  bool all = false;
+  bool all = false, measured_only = false;
   ExportOptions options;
   Console console;
 };
@@ -34,7 +34,8 @@ void run_on_scan(const ExportRequest& request) {
   if (request.all)
     throw Error(Cause::usage, request.world.string() + ": --all needs a world; see build");
   if (!request.options.without.empty())
-    throw Error(Cause::usage, request.world.string() + ": --without goes with a world, not a scan");
+    throw Error(Cause::usage, request.world.string() +
+                                  ": --without and --measured-only go with a world, not a scan");
   scan_export_format(request.out, request.format);  // before the scan is read
   const PointCloud scan = read_scan_with_poses({request.world}, request.poses);
   export_scan(scan, request.out, request.options, request.format);
@@ -44,6 +45,7 @@ void run(ExportRequest request) {
   ExportOptions& options = request.options;
   options.sagitta = sagitta_from(request.sagitta);
   options.without = parts_from(request.without);
+  if (request.measured_only) options.without.insert(WorldPart::inferred);
   options.y_up = request.up == "y";
   options.color_by_kind = request.color == "kind";
   options.origin = {request.origin[0], request.origin[1], request.origin[2]};
@@ -105,10 +107,13 @@ void add_export(CLI::App& app) {
   verb->add_option("--format", request->format, "Format, where the extension does not tell it");
   verb->add_flag("--all", request->all, "Write every format, and a README how to load each");
   add_sagitta(*verb, request->sagitta);
-  verb->add_option("--without", request->without,
-                   "Parts to leave out, joined by commas: obstacles, colliders, openings, surfaces "
-                   "(and their colliders), inferred (surfaces that were not measured)")
+  verb->add_option(
+          "--without", request->without,
+          "Parts to leave out, joined by commas: obstacles, colliders, openings, surfaces "
+          "(and their colliders), inferred (surfaces and parts of them that were not measured)")
       ->type_name("LIST");
+  verb->add_flag("--measured-only", request->measured_only,
+                 "Leave out what was not measured: the same as --without inferred");
   verb->add_option("--friction", options.friction, "Of all solids")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

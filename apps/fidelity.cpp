@@ -116,6 +116,8 @@ Json json_of(const Fidelity& f) {
           {"max_distance", f.max_distance},
           {"scan_to_world", json_of(f.scan_to_world)},
           {"world_to_scan", json_of(f.world_to_scan)},
+          {"measured_area", f.measured_area},
+          {"inferred_area", f.inferred_area},
           {"coverage", f.coverage},
           {"unexplained", f.unexplained},
           {"close", f.close},
@@ -156,6 +158,8 @@ std::string text_of(const Fidelity& f, const World& world) {
       length_text(f.spacing), length_text(f.tolerance), "scan to world",
       length_text(f.scan_to_world.median), length_text(f.scan_to_world.p95), "world to scan",
       length_text(f.world_to_scan.median), length_text(f.world_to_scan.p95));
+  text += fmt::format("{:<18} {:.2f} m2 measured, {:.2f} m2 inferred\n", "surfaces",
+                      f.measured_area, f.inferred_area);
   text += "surfaces farthest from their points\n";
   for (const SurfaceFidelity& s : worst_surfaces(f)) {
     const auto surface = std::ranges::find(world.surfaces, s.id, &Surface::id);

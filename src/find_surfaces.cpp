@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "find_inferred.h"
+#include "parallel.h"
 #include "surface/describe.h"
 #include "world/find_frame.h"
 
@@ -42,6 +44,8 @@ void relabel(const std::vector<Piece>& pieces, std::size_t planes, ReconstructRe
 struct PiecesInPlanes {
   std::vector<Piece> pieces;
   std::vector<Plane> planes;
+  std::vector<std::vector<int>> patches;  // of each piece, that are in its plane and look its way
+  std::vector<double> depths;             // [m] of what is behind each
 };
 
 // [m2] of a piece where a plane has points.
@@ -50,6 +54,19 @@ double area_on(const space::Cover& cover, const Piece& piece) {
   return static_cast<double>(count_cells(raster, cover.frame, piece).set) * raster.cell *
          raster.cell;
 }
+
+// Whether some of the patches have points at a place or just beside it.
+bool is_measured(const Vec3& place, const std::vector<int>& patches,
+                 const std::vector<space::Cover>& covers) {
+  constexpr float kBeside = 0.1F;  // [m]
+  return std::any_of(patches.begin(), patches.end(), [&](int patch) {
+    const space::Cover& cover = covers[static_cast<std::size_t>(patch)];
+    const auto at = cover.supported.find(cover.frame.to_plane(place));
+    return at && cover.distance[*at] <= kBeside;
+  });
+}
+
+constexpr double kLeastDepth = 0.001;  // [m] of what is behind a surface
 
 // Each surface between free and solid as a piece of the plane that it has points of; of none it is
 // inferred. Those with most points first.
@@ -61,21 +78,24 @@ PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::I
                      return a.supported > b.supported;
                    });
   constexpr double kMinSupport = 0.02;  // of the area of what counts as measured
-  PiecesInPlanes result{{}, planes};
+  PiecesInPlanes result{{}, planes, {}, {}};
   for (space::Interface& i : shown) {
     Piece piece{static_cast<int>(result.planes.size()), std::move(i.loops)};
     const Plane& plane = space.arrangement.cells.plane(i.plane);
     result.planes.push_back(i.is_flipped ? plane.flipped() : plane);
-    if (i.supported > kMinSupport * i.area) {
-      double most = 0;
+    std::vector<int> patches;
+    double most = 0;
+    if (i.supported > kMinSupport * i.area)
       for (const auto& part : space.arrangement.parts[static_cast<std::size_t>(i.plane)]) {
         const space::SpacePlane& p = space.planes[static_cast<std::size_t>(part.plane)];
         if (p.kind != space::SpacePlane::Kind::surface || part.is_flipped != i.is_flipped) continue;
+        patches.push_back(p.patch);
         const double points = area_on(covers[static_cast<std::size_t>(p.patch)], piece);
         if (points > most) most = points, piece.patch = p.patch;
       }
-    }
     result.pieces.push_back(std::move(piece));
+    result.patches.push_back(std::move(patches));
+    result.depths.push_back(space::depth_behind(space.arrangement.cells, space.labels, i));
   }
   return result;
 }
@@ -176,8 +196,15 @@ class SurfaceFinder {
       recorder_.add("Arrangement", "planes cut space; surfaces are where free meets solid",
                     loops_of(found.pieces));
       std::vector<FoundSurface> surfaces = describe_all(found.pieces, found.planes);
-      for (std::size_t k = 0; k < surfaces.size(); ++k)
-        surfaces[k].plane = found.planes[in_.planes.size() + k];
+      parallel_for(surfaces.size(), [&](std::size_t k) {
+        FoundSurface& surface = surfaces[k];
+        surface.plane = found.planes[in_.planes.size() + k];
+        surface.thickness = std::max(kLeastDepth, found.depths[k]);
+        if (surface.source == Source::measured)
+          surface.inferred = find_inferred(surface, [&](const Vec3& place) {
+            return is_measured(place, found.patches[k], outlook.covers);
+          });
+      });
       return surfaces;
     });
   }

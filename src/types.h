@@ -134,14 +134,23 @@ enum class Source { measured, inferred };
 
 // A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the
 // plane's normal, which points to the free side; holes clockwise.
+// A part of a surface where nothing was measured: rings in its plane, turning as the surface's do.
+struct InferredPart {
+  std::vector<Vec3> outer;
+  std::vector<std::vector<Vec3>> holes;
+  bool operator==(const InferredPart&) const = default;
+};
+
 struct FoundSurface {
   Plane plane;
   std::vector<Vec3> outer;
   std::vector<std::vector<Vec3>> holes;
   Source source = Source::measured;
   Support support;
-  std::optional<Color> color;  // the mean of its points'
-  std::optional<int> curve;    // the curve that it is a facet of, by number
+  std::optional<Color> color;               // the mean of its points'
+  std::optional<int> curve;                 // the curve that it is a facet of, by number
+  std::vector<InferredPart> inferred = {};  // of a measured one
+  std::optional<double> thickness = {};     // [m] of what is behind it, where that is known
 };
 
 }  // namespace scanworld

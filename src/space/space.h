@@ -6,12 +6,13 @@
 #pragma once
 
 #include "../options.h"
+#include "depth_behind.h"
 #include "interfaces.h"
 
 namespace scanworld::space {
 
 struct SpaceOptions {
-  bool is_on = false;  // whether surfaces are found in labelled space; else plane by plane
+  bool is_on = false; // whether surfaces are found in labelled space; else plane by plane
   CoverOptions cover;
   RayOptions rays;
   PlanesOptions planes;

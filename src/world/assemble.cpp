@@ -82,6 +82,10 @@ void turn_over(Surface& surface) {
   surface.plane = surface.plane.flipped();
   std::reverse(surface.outer.begin(), surface.outer.end());
   for (Loop& hole : surface.holes) std::reverse(hole.begin(), hole.end());
+  for (InferredPart& part : surface.inferred) {
+    std::reverse(part.outer.begin(), part.outer.end());
+    for (auto& hole : part.holes) std::reverse(hole.begin(), hole.end());
+  }
 }
 
 }  // namespace
@@ -125,9 +129,11 @@ World assemble_world(const std::vector<FoundSurface>& surfaces, const Frame& fra
                     .source = found.source,
                     .plane = found.plane,
                     .outer = pool.add(found.outer),
+                    .thickness = found.thickness,
                     .support = found.support,
                     .color = found.color,
-                    .curve = found.curve};
+                    .curve = found.curve,
+                    .inferred = found.inferred};
     for (const auto& hole : found.holes) surface.holes.push_back(pool.add(hole));
     world.surfaces.push_back(std::move(surface));
   }

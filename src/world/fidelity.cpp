@@ -15,6 +15,7 @@
 #include "bend.h"
 #include "cloud_in_world.h"
 #include "fidelity_samples.h"
+#include "inferred_parts.h"
 #include "near_points.h"
 #include "ray_scene.h"
 #include "sight_lines.h"
@@ -237,6 +238,9 @@ class Measurement {
     for (std::size_t s = 0; s < whole.size(); ++s)
       if (whole[s] > 0) result.surfaces[s].coverage = covered[s] / whole[s];
     const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
+    for (const Surface& s : world_.surfaces) result.measured_area += area(world_, s);
+    result.inferred_area = inferred_area(world_);
+    result.measured_area -= result.inferred_area;
     result.places = places.size();
     result.world_to_scan = distances_of(std::move(weighted));
     result.coverage = all > 0 ? std::accumulate(covered.begin(), covered.end(), 0.0) / all : 0;

@@ -125,7 +125,9 @@ struct Fidelity {
   double tolerance = 0;           // [m] at this noise and bend
   double max_distance = 0;        // [m] as used
   Distances scan_to_world, world_to_scan;
-  double coverage = 0;     // share of the surfaces' area that has points near
+  double measured_area = 0, inferred_area = 0;  // [m2] of the surfaces; inferred parts are judged
+                                                // by free space alone
+  double coverage = 0;     // share of the measured area that has points near
   double unexplained = 0;  // share of the points farther than the tolerance from all there is
   double close = 0;   // share of the points within the tolerance of a surface that are within half
   double inside = 0;  // share of the points that are in obstacles, farther than the tolerance from

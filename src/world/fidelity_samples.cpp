@@ -7,6 +7,7 @@
 
 #include "../mix.h"
 #include "../parallel.h"
+#include "inferred_parts.h"
 #include "triangulate.h"
 
 namespace scanworld {
@@ -74,9 +75,9 @@ std::vector<PlaceOnSurface> sample_surfaces(const World& world, std::size_t want
       double u = std::modf(0.5 + 0.7548776662466927 * static_cast<double>(taken), &ignored),
              v = std::modf(0.5 + 0.5698402909980532 * static_cast<double>(taken), &ignored);
       if (u + v > 1) u = 1 - u, v = 1 - v;
-      places.push_back(
-          {corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0)), s,
-           step});
+      const Vec3 at =
+          corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0));
+      if (!is_inferred(world.surfaces[s], at)) places.push_back({at, s, step});
     }
   }
   return places;

@@ -9,6 +9,7 @@
 
 #include "../error.h"
 #include "colliders.h"
+#include "inferred_parts.h"
 #include "simplify.h"
 
 namespace scanworld {
@@ -57,10 +58,7 @@ World leave_out(World world, const std::set<WorldPart>& parts) {
   if (parts.contains(WorldPart::openings)) world.openings.clear();
   if (parts.contains(WorldPart::surfaces)) world.surfaces.clear();
   const bool had_solids = !world.colliders.empty();
-  const bool is_less =
-      parts.contains(WorldPart::inferred) && std::erase_if(world.surfaces, [](const Surface& s) {
-                                               return s.source == Source::inferred;
-                                             }) > 0;
+  const bool is_less = parts.contains(WorldPart::inferred) && cut_inferred(world);
   drop_dangling(world);
   drop_curves(world);
   if (is_less && had_solids) world.colliders = make_colliders(world);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "turn.h"
@@ -63,6 +64,13 @@ World moved(World world, const Eigen::Quaterniond& rotation, const Vec3& shift) 
   for (Surface& s : world.surfaces) {
     s.plane.normal = (motion.rotation * s.plane.normal).normalized();
     s.plane.offset -= s.plane.normal.dot(shift);
+    for (InferredPart& part : s.inferred) {
+      const auto move = [&](std::vector<Vec3>& ring) {
+        for (Vec3& v : ring) v = motion(v).unaryExpr(&rounded);
+      };
+      move(part.outer);
+      std::for_each(part.holes.begin(), part.holes.end(), move);
+    }
   }
   for (Room& r : world.rooms)
     if (r.center) r.center = motion(*r.center).unaryExpr(&rounded);

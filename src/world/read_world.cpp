@@ -133,9 +133,15 @@ Support read_support(const Node& n) {
   return {n.at("points").count(), n.at("rms").number(), n.at("coverage").number()};
 }
 
+InferredPart read_inferred(const Node& n) {
+  n.expect_keys({"outer", "holes"});
+  return {n.at("outer").vectors(),
+          n.at("holes").list([](const Node& hole) { return hole.vectors(); })};
+}
+
 Surface read_surface(const Node& n) {
   n.expect_keys({"id", "kind", "source", "plane", "outer", "holes", "support", "?thickness",
-                 "?color", "?curve"});
+                 "?color", "?curve", "?inferred"});
   const Node plane = n.at("plane");
   plane.expect_keys({"normal", "offset"});
   Surface s;
@@ -149,6 +155,7 @@ Surface read_surface(const Node& n) {
   if (n.has("thickness")) s.thickness = n.at("thickness").number();
   if (n.has("color")) s.color = read_color(n.at("color"));
   if (n.has("curve")) s.curve = n.at("curve").integer();
+  if (n.has("inferred")) s.inferred = n.at("inferred").list(read_inferred);
   return s;
 }
 

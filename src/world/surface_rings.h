@@ -30,4 +30,25 @@ inline geos::Rings rings_of(const World& world, const Surface& surface) {
   return rings;
 }
 
+// The rings of what has an outer one and holes, by places in a plane, in a frame of that.
+template <typename Outline>
+geos::Rings flat_rings(const PlaneFrame& frame, const Outline& outline) {
+  const auto flat = [&](const std::vector<Vec3>& ring) {
+    std::vector<Vec2> points;
+    for (const Vec3& v : ring) points.push_back(frame.to_plane(v));
+    return points;
+  };
+  geos::Rings rings = {flat(outline.outer)};
+  for (const auto& hole : outline.holes) rings.push_back(flat(hole));
+  return rings;
+}
+
+// A ring in space, to the micrometre as a world's vertices are.
+inline std::vector<Vec3> placed_ring(const PlaneFrame& frame, const std::vector<Vec2>& ring) {
+  std::vector<Vec3> placed;
+  for (const Vec2& p : ring)
+    placed.push_back((frame.to_space(p) * 1e6).array().round().matrix() / 1e6);
+  return placed;
+}
+
 }  // namespace scanworld

@@ -149,12 +149,26 @@ class Validator {
     bool sound = check_loop(name, "outer", s.outer, s.plane);
     for (std::size_t h = 0; h < s.holes.size(); ++h)
       sound &= check_loop(name, fmt::format("hole {}", h), s.holes[h], s.plane);
+    for (const InferredPart& part : s.inferred) check_inferred(name, part, s.plane);
     if (!sound) return;
     const geos::Rings rings = rings_of(world_, s);
     if (doubled_area(rings[0]) <= 0) report("{}: the outer loop is not counter-clockwise", name);
     for (std::size_t h = 1; h < rings.size(); ++h)
       if (doubled_area(rings[h]) >= 0) report("{}: hole {} is not clockwise", name, h - 1);
     if (const auto why = geos::why_invalid(rings)) report("{}: {}", name, *why);
+  }
+
+  void check_inferred(const std::string& name, const InferredPart& part, const Plane& plane) {
+    const auto check_ring = [&](const std::vector<Vec3>& ring) {
+      if (ring.size() < 3)
+        report("{}: a ring of an inferred part has {} points", name, ring.size());
+      if (!check_places(name + ": an inferred part", ring)) return;
+      for (const Vec3& v : ring)
+        if (const double off = std::abs(plane.signed_distance(v)); off > kPlanarTolerance)
+          report("{}: a point of an inferred part is {:.4f} m off the plane", name, off);
+    };
+    check_ring(part.outer);
+    for (const auto& hole : part.holes) check_ring(hole);
   }
 
   // True where the loop's vertices exist, are different and lie in the plane.

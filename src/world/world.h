@@ -34,7 +34,8 @@ struct Surface {
   std::optional<double> thickness;  // [m] of what is behind it, where that is known
   Support support;
   std::optional<Color> color;
-  std::optional<int> curve;  // id of what it is a facet of
+  std::optional<int> curve;                 // id of what it is a facet of
+  std::vector<InferredPart> inferred = {};  // where a measured one was not
   bool operator==(const Surface&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "../files.h"
@@ -50,6 +51,11 @@ Json to_json(const Surface& s) {
   if (s.thickness) j["thickness"] = *s.thickness;
   if (s.color) j["color"] = {s.color->r, s.color->g, s.color->b};
   if (s.curve) j["curve"] = *s.curve;
+  for (const InferredPart& part : s.inferred) {
+    Json holes = Json::array();
+    for (const auto& hole : part.holes) holes.push_back(to_json(hole));
+    j["inferred"].push_back({{"outer", to_json(part.outer)}, {"holes", holes}});
+  }
   return j;
 }
 
@@ -128,8 +134,11 @@ Json list_of(const std::vector<T>& items) {
 }
 
 Json to_json(const World& w) {
-  // Who knows version 1 alone can read what has nothing round in it.
-  const int version = w.curves.empty() ? 1 : kWorldSchemaVersion;
+  // Who knows version 1 alone can read what has nothing round or inferred in part in it.
+  const bool is_plain =
+      w.curves.empty() && std::all_of(w.surfaces.begin(), w.surfaces.end(),
+                                      [](const Surface& s) { return s.inferred.empty(); });
+  const int version = is_plain ? 1 : kWorldSchemaVersion;
   Json j = {{"schema", {{"name", "scanworld"}, {"version", version}}},
             {"frame", to_json(w.frame)},
             {"vertices", to_json(w.vertices)},
