@@ -20,6 +20,7 @@ export interface Surface {
   support: { points: number; rms: number; coverage: number } | null;
   thickness: number | null;
   color: Vec3 | null;
+  inferred: Vec3[][][]; // parts that were not measured, each its rings
 }
 
 export interface Opening {
@@ -83,6 +84,7 @@ function read_surface(p: Place, vertices: number): Surface {
     support: p.at('support').optional((s) => ({ points: s.at('points').number(), rms: s.at('rms').number(), coverage: s.at('coverage').number() })),
     thickness: p.at('thickness').optional((t) => t.number()),
     color: p.at('color').optional((c) => c.vec3()),
+    inferred: p.at('inferred').any().map((part) => [part.at('outer'), ...part.at('holes').any()].map((ring) => ring.any().map((v) => v.vec3()))),
   };
 }
 

@@ -7,6 +7,7 @@ import type { Vec3 } from '../check';
 import type { Triangles } from '../data';
 import { type ColorMode, shade, surface_color } from '../palette';
 import type { World } from '../world';
+import { hatch } from './hatch';
 import { LineBuilder, type OutlinedLines } from './lines';
 import { recolor, type Soup, soup_geometry, SoupBuilder } from './soup';
 
@@ -23,6 +24,17 @@ function outlines(world: World, ink: Color): OutlinedLines {
   const lines = new LineBuilder();
   for (const s of world.surfaces) for (const loop of [s.outer, ...s.holes]) lines.loop(loop.map((v) => world.vertices[v]!), s.normal);
   return lines.done(ink);
+}
+
+/** What was not measured: inferred surfaces and parts of others. */
+function hatching(world: World, ink: Color): OutlinedLines {
+  const lines = new LineBuilder();
+  for (const s of world.surfaces) {
+    const whole = [s.outer, ...s.holes].map((loop) => loop.map((v) => world.vertices[v]!));
+    const parts = s.source === 'inferred' ? [whole] : s.inferred;
+    for (const part of parts) for (const [a, b] of hatch(part, s.normal)) lines.segment(a, b, s.normal);
+  }
+  return lines.done(ink, 0.35);
 }
 
 function wireframe(world: World, triangles: Triangles, ink: Color): OutlinedLines {
@@ -46,6 +58,7 @@ export class SurfaceLayers {
   readonly soup: Soup;
   private readonly fill: Mesh<ReturnType<typeof soup_geometry>, MeshBasicMaterial>;
   private readonly outline: OutlinedLines;
+  private readonly hatching: OutlinedLines;
 
   constructor(
     private readonly world: World,
@@ -56,8 +69,9 @@ export class SurfaceLayers {
     const material = new MeshBasicMaterial({ vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
     this.fill = new Mesh(soup_geometry(this.soup, () => [0, 0, 0]), material);
     this.outline = outlines(world, ink);
+    this.hatching = hatching(world, ink);
     this.triangles = wireframe(world, triangles, ink);
-    this.polygons.add(this.fill, this.outline);
+    this.polygons.add(this.fill, this.outline, this.hatching);
   }
 
   set color_mode(mode: ColorMode) {
@@ -70,6 +84,6 @@ export class SurfaceLayers {
 
   set both_sides(both: boolean) {
     this.fill.material.side = both ? DoubleSide : FrontSide;
-    for (const lines of [this.outline, this.triangles]) lines.material.uniforms.both_sides!.value = both;
+    for (const lines of [this.outline, this.hatching, this.triangles]) lines.material.uniforms.both_sides!.value = both;
   }
 }
