@@ -21,9 +21,9 @@ OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
   for (const OptionList& more :
        {surface::list_options(options.surface), space::list_options(options.space),
-        thesis::list_options(options.thesis),
-        list_options(options.thickness), list_options(options.colliders),
-        list_options(options.obstacles), list_options(options.rooms), list_options(options.frame)})
+        thesis::list_options(options.thesis), list_options(options.thickness),
+        list_options(options.colliders), list_options(options.obstacles),
+        list_options(options.rooms), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   return list;
 }
@@ -46,7 +46,7 @@ void apply_preset(ReconstructOptions& options, const std::string& preset) {
     filter.depth_step = 0.003, rival.scale.depth_step = 0.0015, rival.scale.min_voxel = 0.02;
   else if (preset == "fast")
     filter.min_size = 0.1, filter.points_per_cube = 16, rival.scale.voxel_per_spacing = 2,
-    rival.scale.min_voxel = 0.06;
+    rival.scale.min_voxel = 0.06, options.space.is_on = false;
   else
     throw Error(Cause::usage, fmt::format("there is no preset '{}'; there are {}", preset,
                                           fmt::join(preset_names(), ", ")));

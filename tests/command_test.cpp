@@ -64,7 +64,7 @@ TEST_CASE("build writes its folder with world, report and exports") {
   CHECK(report["triangles"] == 12);
   CHECK(report["peak_memory_mb"].get<double>() > 1);
   CHECK(report["world_hash"] == world_hash(read_world(folder / "world")));
-  CHECK(report["stages"].size() == 36);
+  CHECK(report["stages"].size() == 37);
   CHECK(report["complete_seconds"].get<double>() > 0);
 }
 
@@ -150,7 +150,8 @@ TEST_CASE("--json prints the report, --progress json and -v tell of the stages o
   const Outcome loud = run({"build", scan, "-o", folder / "w", "-v", "--progress", "json"});
   CHECK(contains(loud.err, "{\"stage\":\"Rivalry\""));
   CHECK(contains(loud.err, "Sorting into voxels"));
-  CHECK(contains(run({"build", scan, "-o", folder / "w", "--progress", "bar"}).err, "Welding"));
+  CHECK(contains(run({"build", scan, "-o", folder / "w", "--progress", "bar"}).err,
+                 "Labelling space"));
 }
 
 TEST_CASE(

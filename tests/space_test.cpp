@@ -18,9 +18,9 @@ using namespace scanworld::test;
 
 namespace {
 
-ReconstructOptions with_space() {
+ReconstructOptions plane_by_plane() {
   ReconstructOptions options;
-  options.space.is_on = true;
+  options.space.is_on = false;
   return options;
 }
 
@@ -69,9 +69,9 @@ std::size_t floors_of(const World& world) {
 
 }  // namespace
 
-TEST_CASE("labelled space is off by default, and on by an option of its own") {
+TEST_CASE("labelled space is the default, and an option of its own turns it off") {
   ReconstructOptions options;
-  CHECK_FALSE(options.space.is_on);
+  CHECK(options.space.is_on);
   const OptionList list = list_options(options);
   const auto found =
       std::find_if(list.begin(), list.end(), [](const auto& o) { return o.name == "space.on"; });
@@ -81,7 +81,7 @@ TEST_CASE("labelled space is off by default, and on by an option of its own") {
 }
 
 TEST_CASE("a bare room in labelled space is a box of six rectangles") {
-  const World world = reconstruct(seen_from(room_sides(), {kScanner}).cloud, with_space()).world;
+  const World world = reconstruct(seen_from(room_sides(), {kScanner}).cloud).world;
   CHECK(validate(world).empty());
   REQUIRE(world.surfaces.size() == 6);
   CHECK(world.vertices.size() == 8);
@@ -91,7 +91,7 @@ TEST_CASE("a bare room in labelled space is a box of six rectangles") {
 }
 
 TEST_CASE("in labelled space a floor is one surface, also under a table and under the scanner") {
-  const World world = reconstruct(table_cloud(), with_space()).world;
+  const World world = reconstruct(table_cloud()).world;
   CHECK(validate(world).empty());
   int floors = 0;
   double area = 0, top = 0;
@@ -105,29 +105,29 @@ TEST_CASE("in labelled space a floor is one surface, also under a table and unde
   CHECK(area == doctest::Approx(kRoomSize.x() * kRoomSize.y()).epsilon(0.01));
   CHECK(top == doctest::Approx(1.2 * 0.8).epsilon(0.03));
   // Plane by plane it has gaps there.
-  const World plain = reconstruct(table_cloud()).world;
+  const World plain = reconstruct(table_cloud(), plane_by_plane()).world;
   CHECK(open_edges(plain) > 0);
 }
 
 TEST_CASE("in labelled space a room and its table are watertight, without cracks") {
-  const World world = reconstruct(table_cloud(), with_space()).world;
+  const World world = reconstruct(table_cloud()).world;
   CHECK(open_edges(world) == 0);
   for (const Crack& crack : find_cracks(world)) FAIL_CHECK(text_of(crack));
 }
 
 TEST_CASE("labelled space makes the same bytes for any order of points and number of threads") {
   PointCloud cloud = table_cloud();
-  const std::string before = world_text(reconstruct(cloud, with_space()).world);
+  const std::string before = world_text(reconstruct(cloud).world);
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     shuffle_points(cloud, 3 + static_cast<std::uint64_t>(threads));
-    CHECK(world_text(reconstruct(cloud, with_space()).world) == before);
+    CHECK(world_text(reconstruct(cloud).world) == before);
   }
-  CHECK(world_text(reconstruct(cloud).world) != before);
+  CHECK(world_text(reconstruct(cloud, plane_by_plane()).world) != before);
 }
 
 TEST_CASE("labelled space closes a room also where nothing is known of viewpoints") {
-  const World world = reconstruct(room_points(kRoomSize, 0.03, 0.003), with_space()).world;
+  const World world = reconstruct(room_points(kRoomSize, 0.03, 0.003)).world;
   CHECK(validate(world).empty());
   CHECK(world.surfaces.size() == 6);
   CHECK(open_edges(world) == 0);
@@ -135,7 +135,7 @@ TEST_CASE("labelled space closes a room also where nothing is known of viewpoint
 }
 
 TEST_CASE("points are labelled with the surface in labelled space that they lie on") {
-  const ReconstructResult result = reconstruct(table_cloud(), with_space());
+  const ReconstructResult result = reconstruct(table_cloud());
   std::map<int, const Surface*> by_id;
   for (const Surface& s : result.world.surfaces) by_id[s.id] = &s;
   REQUIRE(result.labels.size() == table_cloud().points.size());

@@ -12,7 +12,7 @@
 namespace scanworld::space {
 
 struct SpaceOptions {
-  bool is_on = false; // whether surfaces are found in labelled space; else plane by plane
+  bool is_on = true;  // whether surfaces are found in labelled space; else plane by plane
   CoverOptions cover;
   RayOptions rays;
   PlanesOptions planes;
