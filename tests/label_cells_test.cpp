@@ -227,3 +227,23 @@ TEST_CASE("a surface is cheapest where it was seen from its free side, dearest w
   facet.cells = {-1, 1};
   CHECK(price(bare, 1, solid) == 0);
 }
+
+TEST_CASE("a free pocket too small to be in is solid, if no viewpoint is in it") {
+  // A box of 2 m, of which a layer is free between what is not.
+  for (const double height : {0.005, 0.5})
+    for (const bool has_viewpoint : {false, true}) {
+      space::CellComplex cells(Box3(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+      for (const double top : {0.0, height})
+        cells.split(cells.cell_at({0, 0, 0.999}), cells.add_plane({Vec3::UnitZ(), -top}).plane);
+      space::Evidence evidence = bare_evidence(cells);
+      const auto pocket = static_cast<std::size_t>(cells.cell_at({0, 0, height / 2}));
+      evidence.cells[pocket].has_viewpoint = has_viewpoint;
+      std::vector<space::Label> labels(cells.cells().size(), space::Label::unknown);
+      labels[pocket] = space::Label::free;
+      const bool is_kept = has_viewpoint || height > 0.1;
+      const auto filled = space::fill_pockets(cells, evidence, labels);
+      CHECK(filled[pocket] == (is_kept ? space::Label::free : space::Label::solid));
+      for (std::size_t c = 0; c < labels.size(); ++c)
+        if (c != pocket) CHECK(filled[c] == space::Label::unknown);
+    }
+}

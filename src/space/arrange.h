@@ -20,7 +20,7 @@ struct Arrangement {
 };
 
 struct ArrangeOptions {
-  double pad = 0.1;                 // [m] around all points and viewpoints
+  double pad = 0.25;                // [m] around all points and viewpoints
   double min_touched = 0.02;        // [m2] of a cell that a plane with points cuts, or ...
   double min_share = 0.25;          // ... so much of what the plane is ...
   double min_own = 0.3;             // ... or so much of its section through the cell

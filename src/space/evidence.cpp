@@ -15,6 +15,7 @@ namespace {
 constexpr int kMostPlaces = 4000;     // that a facet is looked at
 constexpr double kMostExtended = 10;  // the highest weight of what is extended
 constexpr double kGrowth = 3;         // of that weight, for each size of what has points
+constexpr double kLevelCosine = 0.9;  // of a floor's normal to up
 constexpr double kGrain = 1e-6;       // [m2] rays are summed in whole ones: in any order the same
 
 std::uint64_t key_of(int from, int to) {
@@ -174,7 +175,8 @@ RaySums follow_all(const CellComplex& cells, const std::vector<Ray>& rays,
 }  // namespace
 
 Evidence find_evidence(const Arrangement& arrangement, const std::vector<SpacePlane>& planes,
-                       const std::vector<Cover>& covers, const std::vector<Ray>& rays) {
+                       const std::vector<Cover>& covers, const std::vector<Ray>& rays,
+                       const Vec3& up) {
   const CellComplex& cells = arrangement.cells;
   std::vector<std::vector<Speaker>> speakers(arrangement.parts.size());
   std::vector<int> plane_of_patch(covers.size(), -1);
@@ -192,7 +194,11 @@ Evidence find_evidence(const Arrangement& arrangement, const std::vector<SpacePl
   evidence.facets.resize(cells.facets().size());
   parallel_for(evidence.facets.size(), [&](std::size_t f) {
     const CellFacet& facet = cells.facets()[f];
-    evidence.facets[f] = ask(cells, facet, speakers[static_cast<std::size_t>(facet.plane)]);
+    const std::vector<Speaker>& own = speakers[static_cast<std::size_t>(facet.plane)];
+    evidence.facets[f] = ask(cells, facet, own);
+    evidence.facets[f].is_floor = std::any_of(own.begin(), own.end(), [&](const Speaker& s) {
+      return s.cover->plane.normal.dot(up) > kLevelCosine;
+    });
   });
   evidence.cells.resize(cells.cells().size());
   for (std::size_t f = 0; f < evidence.facets.size(); ++f)

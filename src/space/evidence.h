@@ -14,12 +14,13 @@ namespace scanworld::space {
 struct FacetEvidence {
   double area = 0;  // [m2]
   std::array<double, 2>
-      supported{};       // [m2] with points of a plane that looks to its front, its back
-  double empty = 0;      // [m2] where points should be
-  double extended = 0;   // [m2] beside points, each weighed by how far from them: 0 at them, 1 at 1
-                         // m or at the size of what has points
-  bool is_bare = true;   // no plane with points is there ...
-  bool is_back = false;  // ... but the back of a plate, that lines of sight go behind
+      supported{};      // [m2] with points of a plane that looks to its front, its back
+  double empty = 0;     // [m2] where points should be
+  double extended = 0;  // [m2] beside points, each weighed by how far from them: 0 at them, 1 at 1
+                        // m or at the size of what has points
+  bool is_bare = true;  // no plane with points is there ...
+  bool is_floor = false;  // a plane with points there looks upwards
+  bool is_back = false;   // ... but the back of a plate, that lines of sight go behind
 };
 
 struct CellEvidence {
@@ -49,6 +50,7 @@ struct Evidence {
 
 // What points and rays say of cells and the facets between them.
 Evidence find_evidence(const Arrangement& arrangement, const std::vector<SpacePlane>& planes,
-                       const std::vector<Cover>& covers, const std::vector<Ray>& rays);
+                       const std::vector<Cover>& covers, const std::vector<Ray>& rays,
+                       const Vec3& up = Vec3::UnitZ());
 
 }  // namespace scanworld::space

@@ -123,7 +123,10 @@ double price_of(const CellFacet& facet, const FacetEvidence& e, std::size_t free
   const double rest = std::max(0.0, e.area - right - wrong - e.empty);
   const double each = e.is_bare ? options.bare_facet : 0;
   if (other == Label::unknown)
-    return each + rest * (e.is_bare ? options.open_bare : options.open) + wrong * options.reversed;
+    return each + wrong * options.reversed +
+           rest * (e.is_bare    ? options.open_bare
+                   : e.is_floor ? options.open_floor
+                                : options.open);
   return each + right * options.supported + wrong * options.reversed + e.empty * options.empty +
          (e.is_bare ? rest * (e.is_back ? options.of_plate : options.bare)
                     : rest * options.beside + e.extended * options.extended);

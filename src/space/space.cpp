@@ -58,7 +58,7 @@ LabelledSpace label_space(const SpaceInput& in, const Outlook& outlook,
                           const std::vector<Vec3>& viewpoints, const SpaceOptions& options) {
   std::vector<SpacePlane> planes = planes_of_space(in, outlook.sight, outlook.free, options.planes);
   Arrangement arrangement = arrange(planes, box_of(in.patches, viewpoints), options.arrange);
-  Evidence evidence = find_evidence(arrangement, planes, outlook.covers, outlook.rays);
+  Evidence evidence = find_evidence(arrangement, planes, outlook.covers, outlook.rays, in.up);
   std::vector<Label> labels =
       fill_pockets(arrangement.cells, evidence,
                    label_cells(arrangement.cells, evidence, options.labels), options.labels);

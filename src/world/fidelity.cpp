@@ -268,7 +268,9 @@ class Measurement {
           tolerance_of(median(around[s].noise), world_.surfaces[s].support.rms);
       surface.rms = std::sqrt(around[s].squares / static_cast<double>(surface.points));
       surface.offset = densest(around[s].offsets, tolerance);
-      if (surface.points >= options_.min_points_each &&
+      // What was inferred has no points of its own, but stray ones of others.
+      if (world_.surfaces[s].source == Source::measured &&
+          surface.points >= options_.min_points_each &&
           std::abs(surface.offset) > options_.max_offset_per_tolerance * tolerance)
         result.misplaced.push_back(surface.id);
     }
