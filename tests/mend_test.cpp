@@ -71,6 +71,15 @@ TEST_CASE("a bow tie becomes two surfaces, the larger one first with the support
   CHECK(contains(mended.warnings[0], "(0.750, 0.750, 0.000) of the scan"));
 }
 
+TEST_CASE("an inferred part goes with the piece of a mended surface that it is in") {
+  FoundSurface tie = bow_tie();
+  tie.inferred = {{{{0.6, 0.2, 0}, {0.9, 0.2, 0}, {0.9, 0.3, 0}}, {}}};  // in the larger triangle
+  const World world = mend({tie}).world;
+  REQUIRE(world.surfaces.size() == 2);
+  CHECK(world.surfaces[0].inferred == tie.inferred);
+  CHECK(world.surfaces[1].inferred.empty());
+}
+
 TEST_CASE("what is less than a hundredth of the rest of a surface is left out") {
   const Mended mended = mend({level_surface({{0, 0, 0}, {1, 0, 0}, {0.49, 1, 0}, {0.51, 1, 0}})});
   CHECK(mended.world.surfaces.size() == 1);

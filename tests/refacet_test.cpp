@@ -114,6 +114,22 @@ TEST_CASE("facets are cut anew, finer or coarser, and all that meets them goes a
     }
 }
 
+TEST_CASE("facets cut anew have no inferred parts of those that were there") {
+  World world = tower(CurveType::cylinder, 2 * M_PI, 16);
+  for (Surface& s : world.surfaces)
+    if (s.curve) {
+      const auto at = [&](std::size_t k) {
+        return world.vertices[static_cast<std::size_t>(s.outer[k])];
+      };
+      s.inferred = {{{at(0), at(1), at(2)}, {}}};
+    }
+  REQUIRE(validate(world).empty());
+  const Refaceted cut = refacet(world, 0.01);
+  REQUIRE(cut.kept.empty());
+  CHECK(validate(cut.world).empty());
+  for (const Surface& s : cut.world.surfaces) CHECK(s.inferred.empty());
+}
+
 TEST_CASE("solids of a curve get as many sides as the sagitta asks for") {
   World world = full_world();
   world.obstacles[1].curve = 6;

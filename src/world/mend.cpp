@@ -143,6 +143,9 @@ class Mender {
   bool add(const geos::Rings& rings, std::vector<Surface>& sound) {
     Surface surface = broken_;
     surface.holes.clear();
+    std::erase_if(surface.inferred, [&](const InferredPart& part) {
+      return geos::overlap_of(rings, flat_rings(frame_, part)).area <= 0;
+    });
     for (std::size_t r = 0; r < rings.size(); ++r) {
       Loop loop;
       for (const Vec2& p : rings[r]) loop.push_back(vertex(p));

@@ -357,7 +357,7 @@ class Recut {
                                   const std::map<std::pair<double, double>, int>& vertex_at) const {
     const Surface& like = world_.surfaces[nearest_facet(strip)];
     Surface s = like;
-    s.holes.clear(), s.outer.clear(), s.thickness.reset();
+    s.holes.clear(), s.outer.clear(), s.thickness.reset(), s.inferred.clear();
     const Plane out = strips_->plane(strip);
     const bool is_turned = out.normal.dot(like.plane.normal) < 0;
     s.plane = is_turned ? Plane{-out.normal, -out.offset} : out;
