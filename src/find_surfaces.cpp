@@ -66,8 +66,6 @@ bool is_measured(const Vec3& place, const std::vector<int>& patches,
   });
 }
 
-constexpr double kLeastDepth = 0.001;  // [m] of what is behind a surface
-
 // Each surface between free and solid as a piece of the plane that it has points of; of none it is
 // inferred. Those with most points first.
 PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::Interface> shown,
@@ -77,8 +75,13 @@ PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::I
                    [](const space::Interface& a, const space::Interface& b) {
                      return a.supported > b.supported;
                    });
-  constexpr double kMinSupport = 0.02;  // of the area of what counts as measured
-  PiecesInPlanes result{{}, planes, {}, {}};
+  constexpr double kMinSupport = 0.02;   // of the area of what counts as measured
+  constexpr double kLeastDepth = 0.001;  // [m] of what is behind a surface
+  PiecesInPlanes result{{}, planes, {}, std::vector<double>(shown.size())};
+  parallel_for(shown.size(), [&](std::size_t k) {
+    result.depths[k] =
+        std::max(kLeastDepth, space::depth_behind(space.arrangement.cells, space.labels, shown[k]));
+  });
   for (space::Interface& i : shown) {
     Piece piece{static_cast<int>(result.planes.size()), std::move(i.loops)};
     const Plane& plane = space.arrangement.cells.plane(i.plane);
@@ -95,7 +98,6 @@ PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::I
       }
     result.pieces.push_back(std::move(piece));
     result.patches.push_back(std::move(patches));
-    result.depths.push_back(space::depth_behind(space.arrangement.cells, space.labels, i));
   }
   return result;
 }
@@ -199,7 +201,7 @@ class SurfaceFinder {
       parallel_for(surfaces.size(), [&](std::size_t k) {
         FoundSurface& surface = surfaces[k];
         surface.plane = found.planes[in_.planes.size() + k];
-        surface.thickness = std::max(kLeastDepth, found.depths[k]);
+        surface.thickness = found.depths[k];
         if (surface.source == Source::measured)
           surface.inferred = find_inferred(surface, [&](const Vec3& place) {
             return is_measured(place, found.patches[k], outlook.covers);

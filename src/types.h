@@ -132,8 +132,6 @@ struct Support {
 // Whether a surface was seen, or was put where it must be though nothing saw it.
 enum class Source { measured, inferred };
 
-// A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the
-// plane's normal, which points to the free side; holes clockwise.
 // A part of a surface where nothing was measured: rings in its plane, turning as the surface's do.
 struct InferredPart {
   std::vector<Vec3> outer;
@@ -141,6 +139,8 @@ struct InferredPart {
   bool operator==(const InferredPart&) const = default;
 };
 
+// A planar polygon that a method found in a scan: outer loop counter-clockwise seen against the
+// plane's normal, which points to the free side; holes clockwise.
 struct FoundSurface {
   Plane plane;
   std::vector<Vec3> outer;

@@ -34,6 +34,15 @@ double surfaces_area(const World& world) {
   return sum;
 }
 
+bool is_inferred(const Surface& surface, const Vec3& place) {
+  const PlaneFrame frame = frame_of(surface.plane);
+  const auto parts = inferred_rings(surface, frame);
+  return surface.source == Source::inferred ||
+         std::any_of(parts.begin(), parts.end(), [&](const geos::Rings& part) {
+           return is_inside(part, frame.to_plane(place));
+         });
+}
+
 // A room whose scanner sees neither what is right below it nor what a table hides.
 const World& room() {
   static const World world = reconstruct(seen_from(table_room_sides(), {kScanner}).cloud).world;

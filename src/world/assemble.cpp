@@ -7,38 +7,11 @@
 #include <map>
 #include <numeric>
 
+#include "vertex_pool.h"
+
 namespace scanworld {
 
 namespace {
-
-// Gives equal points one index.
-class VertexPool {
- public:
-  explicit VertexPool(std::vector<Vec3>& vertices) : vertices_(vertices) {}
-
-  Loop add(const std::vector<Vec3>& ring) {
-    Loop loop;
-    for (const Vec3& v : ring) {
-      const int index = add(v);
-      if (loop.empty() || (index != loop.back() && index != loop.front())) loop.push_back(index);
-    }
-    return loop;
-  }
-
- private:
-  int add(const Vec3& v) {
-    const std::array<std::int64_t, 3> um = {std::llround(v.x() * 1e6), std::llround(v.y() * 1e6),
-                                            std::llround(v.z() * 1e6)};
-    const auto [found, is_new] = index_.try_emplace(um, static_cast<int>(vertices_.size()));
-    if (is_new)
-      vertices_.emplace_back(static_cast<double>(um[0]) / 1e6, static_cast<double>(um[1]) / 1e6,
-                             static_cast<double>(um[2]) / 1e6);
-    return found->second;
-  }
-
-  std::vector<Vec3>& vertices_;
-  std::map<std::array<std::int64_t, 3>, int> index_;
-};
 
 struct HeightRange {
   double low, high;

@@ -7,6 +7,7 @@
 
 #include "../mix.h"
 #include "../parallel.h"
+#include "../polygon.h"
 #include "inferred_parts.h"
 #include "triangulate.h"
 
@@ -61,6 +62,8 @@ std::vector<PlaceOnSurface> sample_surfaces(const World& world, std::size_t want
   std::vector<PlaceOnSurface> places;
   std::size_t owner = SIZE_MAX, taken = 0;
   double step = 0, passed = 0;  // [m2] between places, and of the surface before this triangle
+  PlaneFrame frame = {};
+  std::vector<geos::Rings> inferred;
   for (std::size_t t = 0; t < area.size(); ++t) {
     const auto s = static_cast<std::size_t>(mesh.surface[t]);
     if (world.surfaces[s].source != Source::measured) continue;
@@ -68,6 +71,8 @@ std::vector<PlaceOnSurface> sample_surfaces(const World& world, std::size_t want
       const double share = std::ceil(static_cast<double>(wanted) * whole[s] / total);
       step = whole[s] / std::max(share, static_cast<double>(each));
       owner = s, taken = 0, passed = 0;
+      frame = frame_of(world.surfaces[s].plane);
+      inferred = inferred_rings(world.surfaces[s], frame);
     }
     passed += area[t];
     for (; (static_cast<double>(taken) + 0.5) * step < passed; ++taken) {
@@ -77,7 +82,10 @@ std::vector<PlaceOnSurface> sample_surfaces(const World& world, std::size_t want
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const Vec3 at =
           corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0));
-      if (!is_inferred(world.surfaces[s], at)) places.push_back({at, s, step});
+      const bool is_inferred =
+          std::any_of(inferred.begin(), inferred.end(),
+                      [&](const geos::Rings& part) { return is_inside(part, frame.to_plane(at)); });
+      if (!is_inferred) places.push_back({at, s, step});
     }
   }
   return places;

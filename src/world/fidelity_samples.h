@@ -20,10 +20,9 @@ struct PlaceOnSurface {
   double area;  // [m2]
 };
 
-// About `wanted` places spread evenly over the measured surfaces, at least so many on each, but for
-// their inferred parts: at
-// equal steps of area through a surface's triangles one after the other, in each by a sequence that
-// fills it evenly (Roberts 2018, R2).
+// About `wanted` places spread evenly over the measured surfaces, at least so many on each, but
+// none in their inferred parts: at equal steps of area through a surface's triangles one after the
+// other, in each by a sequence that fills it evenly (Roberts 2018, R2).
 std::vector<PlaceOnSurface> sample_surfaces(const World& world, std::size_t wanted,
                                             std::size_t each);
 

@@ -104,6 +104,25 @@ Geometry offset(const Context& context, const Geometry& geometry, double distanc
           Free{context.handle}};
 }
 
+using Triangles = std::vector<std::array<Vec2, 3>>;
+
+std::optional<Triangles> try_to_triangulate(const Rings& rings) {
+  const Context context;
+  const Geometry polygon = polygon_of(context, rings);
+  if (!polygon) return std::nullopt;
+  const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()),
+                        Free{context.handle});
+  if (!result) return std::nullopt;
+  Triangles triangles;
+  const int count = GEOSGetNumGeometries_r(context.handle, result.get());
+  for (int i = 0; i < count; ++i) {
+    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, result.get(), i);
+    const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
+    triangles.push_back({p[0], p[1], p[2]});
+  }
+  return triangles;
+}
+
 }  // namespace
 
 std::optional<Flaw> find_flaw(const Rings& rings) {
@@ -143,29 +162,6 @@ std::vector<Rings> make_valid(const Rings& rings) {
   std::erase_if(result, [](const Rings& part) { return doubled_area(part[0]) <= 0; });
   return result;
 }
-
-namespace {
-
-using Triangles = std::vector<std::array<Vec2, 3>>;
-
-std::optional<Triangles> try_to_triangulate(const Rings& rings) {
-  const Context context;
-  const Geometry polygon = polygon_of(context, rings);
-  if (!polygon) return std::nullopt;
-  const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()),
-                        Free{context.handle});
-  if (!result) return std::nullopt;
-  Triangles triangles;
-  const int count = GEOSGetNumGeometries_r(context.handle, result.get());
-  for (int i = 0; i < count; ++i) {
-    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, result.get(), i);
-    const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
-    triangles.push_back({p[0], p[1], p[2]});
-  }
-  return triangles;
-}
-
-}  // namespace
 
 std::optional<Triangles> triangulate(const Rings& rings) {
   std::optional<Triangles> triangles = try_to_triangulate(rings);

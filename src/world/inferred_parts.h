@@ -4,12 +4,13 @@
 // Parts of measured surfaces where nothing was measured: behind furniture, under the scanner.
 #pragma once
 
+#include "geos.h"
 #include "world.h"
 
 namespace scanworld {
 
-// Whether a place in the plane of a surface was inferred.
-bool is_inferred(const Surface& surface, const Vec3& place);
+// The inferred parts of a surface in a frame of its plane.
+std::vector<geos::Rings> inferred_rings(const Surface& surface, const PlaneFrame& frame);
 
 // [m2] of all inferred surfaces and parts.
 double inferred_area(const World& world);

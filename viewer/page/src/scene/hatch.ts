@@ -21,7 +21,8 @@ export function hatch(rings: Vec3[][], normal: Vec3): [Vec3, Vec3][] {
       for (let line = Math.ceil(Math.min(ca, cb)); line < Math.max(ca, cb); ++line) {
         const share = (line - ca) / (cb - ca);
         const place = a.map((x, k) => x + share * (b[k]! - x)) as Vec3;
-        at.set(line, [...(at.get(line) ?? []), { place, t: along.dot(new Vector3(...place)) }]);
+        if (!at.has(line)) at.set(line, []);
+        at.get(line)!.push({ place, t: along.dot(new Vector3(...place)) });
       }
     });
   return [...at.values()].flatMap((crossings) => {
