@@ -230,7 +230,7 @@ TEST_CASE("surfaces of cells labelled by chance are closed, simple and planar") 
     const auto shown = interfaces_of(cells, labels, {.same = 0, .min_area = 0});
     CHECK(shown.size() > 5);
     check_closed(shown, false);
-    check_loops(cells, interfaces_of(cells, labels));
+    check_loops(cells, interfaces_of(cells, labels, {.same = 2e-6}));
     double expected = 0;
     for (const space::CellFacet& f : cells.facets())
       if (f.cells[0] >= 0 && f.cells[1] >= 0 &&

@@ -235,16 +235,6 @@ TEST_CASE("a camera's image is levelled by its largest floor, and the assumption
   CHECK(contains(world.frame.assumed.back(), "camera"));
 }
 
-TEST_CASE("a scan in centimetres makes a world, and is warned of") {
-  PointCloud cloud = room_points({5, 4, 2.7}, 0.04, 0.01);
-  CHECK(reconstruct(cloud).report.warnings.empty());
-  for (Vec3f& p : cloud.points) p *= 100;
-  const ReconstructResult result = reconstruct(cloud);
-  CHECK(result.world.surfaces.size() == 6);
-  REQUIRE(result.report.warnings.size() == 1);
-  CHECK(contains(result.report.warnings[0], "metres"));
-}
-
 TEST_CASE("normals tell which side of a surface is free") {
   PointCloud cloud;
   Random random(1);

@@ -219,10 +219,14 @@ TEST_CASE("a tilted room has its six surfaces, of the right size") {
   }
 }
 
-TEST_CASE("a room scanned in centimetres has its six surfaces") {
-  PointCloud cloud = room_points({5, 4, 2.7}, 0.03, 0.005);
+TEST_CASE("a room scanned in centimetres has its six surfaces, and is warned of") {
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.04, 0.01);
+  CHECK(reconstruct(cloud).report.warnings.empty());
   for (Vec3f& p : cloud.points) p *= 100;
-  check_room_areas(reconstruct(cloud).world, {500, 400, 270}, 0.02);
+  const ReconstructResult result = reconstruct(cloud);
+  check_room_areas(result.world, {500, 400, 270}, 0.02);
+  REQUIRE(result.report.warnings.size() == 1);
+  CHECK(contains(result.report.warnings[0], "metres"));
 }
 
 TEST_CASE("a depth camera's image gives its three surfaces with the preset for it") {

@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <set>
-#include <unordered_map>
 
 #include "../disjoint_sets.h"
 #include "../polygon.h"
+#include "slits.h"
 
 namespace scanworld::space {
 
 namespace {
 
-using Edge = std::pair<int, int>;  // from one corner to another
 using CornerLoop = std::vector<int>;
 
 // Facets of one plane that hang together, with one side free.
@@ -28,45 +26,43 @@ struct Sheet {
   std::vector<CornerLoop> loops;  // counter-clockwise about the plane's normal; holes clockwise
 };
 
-// Gives each vertex the corner that stands for it: of those nearer than `same` the first one.
-std::vector<int> unite_vertices(const CellComplex& cells, const std::vector<int>& vertices,
-                                double same) {
-  std::vector<int> corner(cells.vertex_count(), -1);
-  std::map<std::array<std::int64_t, 3>, std::vector<int>> at;
-  for (const int v : vertices) {
-    corner[static_cast<std::size_t>(v)] = v;
-    if (same <= 0) continue;
-    const Vec3& p = cells.vertex(v);
-    const auto here = [&](int k) { return static_cast<std::int64_t>(std::floor(p[k] / same)); };
-    const std::int64_t i = here(0), j = here(1), k = here(2);
-    const auto find_near = [&]() -> int {
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-          for (int z = -1; z <= 1; ++z) {
-            const auto near = at.find({i + x, j + y, k + z});
-            if (near == at.end()) continue;
-            for (const int other : near->second)
-              if ((cells.vertex(other) - p).norm() < same) return other;
-          }
-      return -1;
-    };
-    if (const int near = find_near(); near >= 0)
-      corner[static_cast<std::size_t>(v)] = near;
-    else
-      at[{i, j, k}].push_back(v);
+// The facets between free and solid; where points should be and are not, they are openings.
+ShownFacets facets_between(const CellComplex& cells, const Evidence& evidence,
+                           const std::vector<Label>& labels, double max_empty) {
+  const auto label_of = [&](int cell) { return labels[static_cast<std::size_t>(cell)]; };
+  ShownFacets found;
+  for (std::size_t f = 0; f < cells.facets().size(); ++f) {
+    const CellFacet& facet = cells.facets()[f];
+    if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
+    const Label a = label_of(facet.cells[0]), b = label_of(facet.cells[1]);
+    if (!(a == Label::free && b == Label::solid) && !(a == Label::solid && b == Label::free))
+      continue;
+    const FacetEvidence& e = evidence.facets[f];
+    (e.empty > max_empty * e.area ? found.open : found.shown).push_back(static_cast<int>(f));
   }
-  return corner;
+  return found;
+}
+
+std::vector<int> all_of(const ShownFacets& facets) {
+  std::vector<int> all = facets.shown;
+  all.insert(all.end(), facets.open.begin(), facets.open.end());
+  return all;
 }
 
 class SheetTracer {
  public:
   SheetTracer(const CellComplex& cells, const Evidence& evidence, const std::vector<Label>& labels,
               const InterfaceOptions& options)
-      : cells_(cells), evidence_(evidence), labels_(labels), options_(options) {}
+      : cells_(cells),
+        evidence_(evidence),
+        labels_(labels),
+        options_(options),
+        shown_(facets_between(cells, evidence, labels, options.max_empty)),
+        edges_(cells, all_of(shown_), options.same) {
+    shown_ = close_slits(cells, labels, edges_, std::move(shown_), options.narrow);
+  }
 
   std::vector<Interface> trace() {
-    show();
-    gather_lines();
     join();
     trace_sheets();
     for (const Sheet& sheet : sheets_) mark_turns(sheet);
@@ -76,91 +72,13 @@ class SheetTracer {
   }
 
  private:
-  Label label_of(int cell) const { return labels_[static_cast<std::size_t>(cell)]; }
   const CellFacet& facet(int f) const { return cells_.facets()[static_cast<std::size_t>(f)]; }
 
-  // The facets between free and solid.
-  void show() {
-    std::set<int> vertices;
-    for (std::size_t f = 0; f < cells_.facets().size(); ++f) {
-      const CellFacet& facet = cells_.facets()[f];
-      if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
-      const Label a = label_of(facet.cells[0]), b = label_of(facet.cells[1]);
-      const bool is_surface =
-          (a == Label::free && b == Label::solid) || (a == Label::solid && b == Label::free);
-      const FacetEvidence& e = evidence_.facets[f];
-      if (!is_surface || e.empty > options_.max_empty * e.area) continue;
-      shown_.push_back(static_cast<int>(f));
-      vertices.insert(facet.vertices.begin(), facet.vertices.end());
-    }
-    corner_ = unite_vertices(cells_, {vertices.begin(), vertices.end()}, options_.same);
-  }
-
-  static std::uint64_t line_of(int plane, int other) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(plane, other))) << 32 |
-           static_cast<std::uint32_t>(std::max(plane, other));
-  }
-
-  // All vertices of shown facets on each line that two planes have in common, in order.
-  void gather_lines() {
-    for (const int f : shown_) {
-      const CellFacet& own = facet(f);
-      for (std::size_t i = 0; i < own.vertices.size(); ++i) {
-        std::vector<int>& on = lines_[line_of(own.plane, own.edge_planes[i])];
-        on.push_back(own.vertices[i]);
-        on.push_back(own.vertices[(i + 1) % own.vertices.size()]);
-      }
-    }
-    for (auto& [key, on] : lines_) {
-      const Vec3 way = cells_.plane(static_cast<int>(key >> 32))
-                           .normal.cross(cells_.plane(static_cast<int>(key & 0xffffffff)).normal);
-      std::sort(on.begin(), on.end());
-      on.erase(std::unique(on.begin(), on.end()), on.end());
-      std::stable_sort(on.begin(), on.end(), [&](int a, int b) {
-        return way.dot(cells_.vertex(a)) < way.dot(cells_.vertex(b));
-      });
-    }
-  }
-
-  // Calls visit(from, to) for the corners along a facet's outline, also those of its neighbours.
-  template <typename Visit>
-  void visit_edges(int f, const Visit& visit) const {
-    const CellFacet& own = facet(f);
-    for (std::size_t i = 0; i < own.vertices.size(); ++i) {
-      const std::vector<int>& on = lines_.at(line_of(own.plane, own.edge_planes[i]));
-      const auto from = std::find(on.begin(), on.end(), own.vertices[i]),
-                 to = std::find(on.begin(), on.end(), own.vertices[(i + 1) % own.vertices.size()]);
-      const std::ptrdiff_t step = from < to ? 1 : -1;
-      for (auto at = from; at != to; at += step) {
-        const int a = corner_[static_cast<std::size_t>(*at)],
-                  b = corner_[static_cast<std::size_t>(*(at + step))];
-        if (a != b) visit(a, b);
-      }
-    }
-  }
-
-  std::size_t free_side_of(int f) const {
-    return label_of(facet(f).cells[0]) == Label::free ? 0 : 1;
-  }
-
-  // Facets of one plane and side that share an edge are one sheet.
+  // Facets of one plane and side that hang together are one sheet.
   void join() {
-    DisjointSets sets(shown_.size());
-    std::map<std::tuple<int, std::size_t, int, int>, std::size_t> at_edge;
-    for (std::size_t i = 0; i < shown_.size(); ++i)
-      visit_edges(shown_[i], [&](int a, int b) {
-        const auto [found, is_new] = at_edge.try_emplace(
-            {facet(shown_[i]).plane, free_side_of(shown_[i]), std::min(a, b), std::max(a, b)}, i);
-        if (!is_new) sets.unite(found->second, i);
-      });
-    std::vector<int> sheet_of(shown_.size(), -1);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-      int& sheet = sheet_of[sets.find(i)];
-      if (sheet < 0) {
-        sheet = static_cast<int>(sheets_.size());
-        sheets_.push_back({facet(shown_[i]).plane, free_side_of(shown_[i]), {}, {}});
-      }
-      sheets_[static_cast<std::size_t>(sheet)].facets.push_back(shown_[i]);
+    for (std::vector<int>& facets : find_sheets(cells_, labels_, edges_, shown_.shown)) {
+      const CellFacet& first = facet(facets[0]);
+      sheets_.push_back({first.plane, free_side_of(first, labels_), std::move(facets), {}});
     }
   }
 
@@ -192,7 +110,7 @@ class SheetTracer {
     const std::size_t count = sheet.facets.size();
     std::map<Edge, std::vector<std::size_t>> at_edge;
     for (std::size_t i = 0; i < count; ++i)
-      visit_edges(sheet.facets[i], [&](int a, int b) { at_edge[std::minmax(a, b)].push_back(i); });
+      edges_.visit(sheet.facets[i], [&](int a, int b) { at_edge[std::minmax(a, b)].push_back(i); });
     DisjointSets wedges(count);
     std::vector<std::vector<std::size_t>> beside(count);
     std::set<std::size_t> around;
@@ -238,7 +156,7 @@ class SheetTracer {
 
   void trace_loops(Sheet& sheet) const {
     std::map<Edge, int> count;
-    for (const int f : sheet.facets) visit_edges(f, [&](int a, int b) { ++count[{a, b}]; });
+    for (const int f : sheet.facets) edges_.visit(f, [&](int a, int b) { ++count[{a, b}]; });
     std::map<int, std::vector<int>> next;
     for (const auto& [edge, times] : count) {
       const auto back = count.find({edge.second, edge.first});
@@ -345,9 +263,8 @@ class SheetTracer {
   const Evidence& evidence_;
   const std::vector<Label>& labels_;
   const InterfaceOptions& options_;
-  std::vector<int> shown_;   // facets
-  std::vector<int> corner_;  // that stands for each vertex
-  std::unordered_map<std::uint64_t, std::vector<int>> lines_;
+  ShownFacets shown_;
+  FacetEdges edges_;  // of all between free and solid
   std::vector<Sheet> sheets_;
   std::set<int> turns_;
 };

@@ -67,6 +67,8 @@ OptionList list_options(SpaceOptions& o) {
        "share of a facet where points should be; with more it is an opening", 0, 1},
       {"space.interfaces.same", &o.interfaces.same, "m", "corners nearer than this are one", 0,
        0.0009},
+      {"space.interfaces.narrow", &o.interfaces.narrow, "m",
+       "openings are no narrower, nor is what hangs beside a surface alone", 0},
       {"space.interfaces.min_area", &o.interfaces.min_area, "m2", "of a loop that is kept", 0},
   };
 }
