@@ -10,7 +10,7 @@ namespace scanworld::space {
 
 struct InterfaceOptions {
   double max_empty = 0.5;  // share of a facet where points should be; with more it is an opening
-  double same = 0.0009;    // [m] corners nearer than this are one: less than what `validate` lets pass
+  double same = 0.0009;    // [m] corners nearer than this are one; `validate` lets 1 mm pass
   double narrow = 0.005;   // [m] openings are no narrower, nor is what hangs beside a surface alone
   double min_area = 1e-6;  // [m2] of what is shown
 };

@@ -97,7 +97,8 @@ ShownFacets close_slits(const CellComplex& cells, const std::vector<Label>& labe
   std::vector<Strip> strips;
   ShownFacets result;
   for (const bool is_shown : {false, true})
-    for (const auto& sheet : find_sheets(cells, labels, edges, is_shown ? facets.shown : facets.open))
+    for (const auto& sheet :
+         find_sheets(cells, labels, edges, is_shown ? facets.shown : facets.open))
       if (closer.is_narrow(sheet, narrow))
         for (const int f : sheet) strips.push_back({f, is_shown});
       else
