@@ -42,7 +42,7 @@ std::vector<InferredPart> find_inferred(const FoundSurface& surface,
     }
   std::vector<InferredPart> parts;
   if (is_whole) return parts;
-  for (const geos::Rings& left : geos::subtract(rings, polygons_of(raster), options.min_width)) {
+  for (const geos::Rings& left : geos::subtract(rings, polygons_of(raster), 2 * options.cell)) {
     InferredPart part{placed_ring(frame, left[0]), {}};
     for (std::size_t k = 1; k < left.size(); ++k) part.holes.push_back(placed_ring(frame, left[k]));
     parts.push_back(std::move(part));

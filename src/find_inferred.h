@@ -11,8 +11,8 @@ namespace scanworld {
 
 // What of a surface was not measured: behind furniture, under the scanner.
 struct InferredOptions {
-  double cell = 0.05;      // [m] between the places that are asked for
-  double min_width = 0.1;  // [m] narrower parts are none
+  double cell =
+      0.05;  // [m] between the places that are asked for; parts narrower than two are none
 };
 
 // The parts of a surface where is_measured(place) is false.

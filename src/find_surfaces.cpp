@@ -204,13 +204,10 @@ class SurfaceFinder {
         surface.thickness = found.depths[k];
         if (surface.source != Source::measured) return;
         const auto patch = static_cast<std::size_t>(found.pieces[k].patch);
-        InferredOptions options;
-        options.cell = std::max(options.cell, outlook.covers[patch].supported.cell);
-        options.min_width = std::max(options.min_width, 2 * options.cell);
         surface.inferred = find_inferred(
             surface,
             [&](const Vec3& place) { return is_measured(place, found.patches[k], outlook.covers); },
-            options);
+            {.cell = std::max(InferredOptions{}.cell, outlook.covers[patch].supported.cell)});
       });
       return surfaces;
     });

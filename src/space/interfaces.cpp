@@ -27,10 +27,10 @@ struct Sheet {
 };
 
 // The facets between free and solid; where points should be and are not, they are openings.
-ShownFacets facets_between(const CellComplex& cells, const Evidence& evidence,
-                           const std::vector<Label>& labels, double max_empty) {
+FacetsBetween facets_between(const CellComplex& cells, const Evidence& evidence,
+                             const std::vector<Label>& labels, double max_empty) {
   const auto label_of = [&](int cell) { return labels[static_cast<std::size_t>(cell)]; };
-  ShownFacets found;
+  FacetsBetween found;
   for (std::size_t f = 0; f < cells.facets().size(); ++f) {
     const CellFacet& facet = cells.facets()[f];
     if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
@@ -38,32 +38,25 @@ ShownFacets facets_between(const CellComplex& cells, const Evidence& evidence,
     if (!(a == Label::free && b == Label::solid) && !(a == Label::solid && b == Label::free))
       continue;
     const FacetEvidence& e = evidence.facets[f];
-    (e.empty > max_empty * e.area ? found.open : found.shown).push_back(static_cast<int>(f));
+    (e.empty > max_empty * e.area ? found.openings : found.surfaces).push_back(static_cast<int>(f));
   }
   return found;
 }
 
-std::vector<int> all_of(const ShownFacets& facets) {
-  std::vector<int> all = facets.shown;
-  all.insert(all.end(), facets.open.begin(), facets.open.end());
+std::vector<int> all_of(const FacetsBetween& facets) {
+  std::vector<int> all = facets.surfaces;
+  all.insert(all.end(), facets.openings.begin(), facets.openings.end());
   return all;
 }
 
 class SheetTracer {
  public:
   SheetTracer(const CellComplex& cells, const Evidence& evidence, const std::vector<Label>& labels,
-              const InterfaceOptions& options)
-      : cells_(cells),
-        evidence_(evidence),
-        labels_(labels),
-        options_(options),
-        shown_(facets_between(cells, evidence, labels, options.max_empty)),
-        edges_(cells, all_of(shown_), options.same) {
-    shown_ = close_slits(cells, labels, edges_, std::move(shown_), options.narrow);
-  }
+              const FacetEdges& edges, const InterfaceOptions& options)
+      : cells_(cells), evidence_(evidence), labels_(labels), edges_(edges), options_(options) {}
 
-  std::vector<Interface> trace() {
-    join();
+  std::vector<Interface> trace(const std::vector<int>& shown) {
+    join(shown);
     trace_sheets();
     for (const Sheet& sheet : sheets_) mark_turns(sheet);
     std::vector<Interface> result;
@@ -75,8 +68,8 @@ class SheetTracer {
   const CellFacet& facet(int f) const { return cells_.facets()[static_cast<std::size_t>(f)]; }
 
   // Facets of one plane and side that hang together are one sheet.
-  void join() {
-    for (std::vector<int>& facets : find_sheets(cells_, labels_, edges_, shown_.shown)) {
+  void join(const std::vector<int>& shown) {
+    for (std::vector<int>& facets : find_sheets(cells_, labels_, edges_, shown)) {
       const CellFacet& first = facet(facets[0]);
       sheets_.push_back({first.plane, free_side_of(first, labels_), std::move(facets), {}});
     }
@@ -262,9 +255,8 @@ class SheetTracer {
   const CellComplex& cells_;
   const Evidence& evidence_;
   const std::vector<Label>& labels_;
+  const FacetEdges& edges_;
   const InterfaceOptions& options_;
-  ShownFacets shown_;
-  FacetEdges edges_;  // of all between free and solid
   std::vector<Sheet> sheets_;
   std::set<int> turns_;
 };
@@ -274,7 +266,10 @@ class SheetTracer {
 std::vector<Interface> find_interfaces(const CellComplex& cells, const Evidence& evidence,
                                        const std::vector<Label>& labels,
                                        const InterfaceOptions& options) {
-  return SheetTracer(cells, evidence, labels, options).trace();
+  const FacetsBetween between = facets_between(cells, evidence, labels, options.max_empty);
+  const FacetEdges edges(cells, all_of(between), options.same);
+  const std::vector<int> shown = close_slits(cells, labels, edges, between, options.narrow);
+  return SheetTracer(cells, evidence, labels, edges, options).trace(shown);
 }
 
 }  // namespace scanworld::space

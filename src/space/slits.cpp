@@ -11,7 +11,7 @@ namespace scanworld::space {
 
 namespace {
 
-constexpr int kRounds = 8;        // a facet may depend on the one beside it
+constexpr int kRounds = 8;         // a facet may depend on the one beside it
 constexpr double kMuchLess = 0.5;  // of the open edges; what closes no more is not worth a facet
 
 class SlitCloser {
@@ -87,22 +87,24 @@ std::vector<std::vector<int>> find_sheets(const CellComplex& cells,
   return sheets;
 }
 
-ShownFacets close_slits(const CellComplex& cells, const std::vector<Label>& labels,
-                        const FacetEdges& edges, ShownFacets facets, double narrow) {
-  SlitCloser closer(cells, edges, facets.shown);
+std::vector<int> close_slits(const CellComplex& cells, const std::vector<Label>& labels,
+                             const FacetEdges& edges, const FacetsBetween& facets, double narrow) {
+  SlitCloser closer(cells, edges, facets.surfaces);
   struct Strip {
     int facet;
     bool is_shown;
   };
   std::vector<Strip> strips;
-  ShownFacets result;
-  for (const bool is_shown : {false, true})
-    for (const auto& sheet :
-         find_sheets(cells, labels, edges, is_shown ? facets.shown : facets.open))
+  std::vector<int> shown;
+  const auto sort_out = [&](const std::vector<int>& some, bool are_shown) {
+    for (const auto& sheet : find_sheets(cells, labels, edges, some))
       if (closer.is_narrow(sheet, narrow))
-        for (const int f : sheet) strips.push_back({f, is_shown});
-      else
-        for (const int f : sheet) (is_shown ? result.shown : result.open).push_back(f);
+        for (const int f : sheet) strips.push_back({f, are_shown});
+      else if (are_shown)
+        shown.insert(shown.end(), sheet.begin(), sheet.end());
+  };
+  sort_out(facets.openings, false);
+  sort_out(facets.surfaces, true);
   bool has_changed = true;
   for (int round = 0; round < kRounds && has_changed; ++round) {
     has_changed = false;
@@ -113,10 +115,9 @@ ShownFacets close_slits(const CellComplex& cells, const std::vector<Label>& labe
     }
   }
   for (const Strip& strip : strips)
-    (strip.is_shown ? result.shown : result.open).push_back(strip.facet);
-  std::sort(result.shown.begin(), result.shown.end());
-  std::sort(result.open.begin(), result.open.end());
-  return result;
+    if (strip.is_shown) shown.push_back(strip.facet);
+  std::sort(shown.begin(), shown.end());
+  return shown;
 }
 
 }  // namespace scanworld::space

@@ -19,14 +19,15 @@ std::vector<std::vector<int>> find_sheets(const CellComplex& cells,
                                           const std::vector<Label>& labels, const FacetEdges& edges,
                                           const std::vector<int>& facets);
 
-// Facets between free and solid: those that are shown, and those of openings.
-struct ShownFacets {
-  std::vector<int> shown, open;
+// Facets between free and solid: those that are surfaces, and those of openings.
+struct FacetsBetween {
+  std::vector<int> surfaces, openings;
 };
 
-// Facets of sheets narrower than `narrow` [m] are shown where much less of the edges is open with
-// them, else not: a slit between two surfaces is closed, a fringe beside one is taken away.
-ShownFacets close_slits(const CellComplex& cells, const std::vector<Label>& labels,
-                        const FacetEdges& edges, ShownFacets facets, double narrow);
+// The facets that are shown, in order: those of surfaces, but of sheets narrower than `narrow` [m],
+// also in openings, those with which much less of the edges is open. A slit between two surfaces is
+// closed, a fringe beside one is taken away.
+std::vector<int> close_slits(const CellComplex& cells, const std::vector<Label>& labels,
+                             const FacetEdges& edges, const FacetsBetween& facets, double narrow);
 
 }  // namespace scanworld::space
