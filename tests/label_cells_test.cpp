@@ -228,6 +228,24 @@ TEST_CASE("a surface is cheapest where it was seen from its free side, dearest w
   CHECK(price(bare, 1, solid) == 0);
 }
 
+TEST_CASE("a slit in what is solid is solid, wider gaps and narrow cells of an opening are not") {
+  // A box of 2 m with a layer between two others.
+  for (const double height : {0.005, 0.02})
+    for (const space::Label above : {space::Label::solid, space::Label::free})
+      for (const space::Label layer : {space::Label::free, space::Label::unknown}) {
+        space::CellComplex cells(Box3(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+        for (const double top : {0.0, height})
+          cells.split(cells.cell_at({0, 0, 0.999}), cells.add_plane({Vec3::UnitZ(), -top}).plane);
+        std::vector<space::Label> labels(cells.cells().size(), space::Label::solid);
+        const auto slit = static_cast<std::size_t>(cells.cell_at({0, 0, height / 2}));
+        labels[slit] = layer;
+        labels[static_cast<std::size_t>(cells.cell_at({0, 0, 0.5}))] = above;
+        auto expected = labels;
+        if (height < 0.01 && above == space::Label::solid) expected[slit] = space::Label::solid;
+        CHECK(space::fill_slits(cells, bare_evidence(cells), labels) == expected);
+      }
+}
+
 TEST_CASE("a free pocket too small to be in is solid, if no viewpoint is in it") {
   // A box of 2 m, of which a layer is free between what is not.
   for (const double height : {0.005, 0.5})

@@ -132,6 +132,26 @@ double price_of(const CellFacet& facet, const FacetEvidence& e, std::size_t free
                     : rest * options.beside + e.extended * options.extended);
 }
 
+std::vector<Label> fill_slits(const CellComplex& cells, const Evidence& evidence,
+                              std::vector<Label> labels, const LabelOptions& options) {
+  std::vector<double> solid(labels.size());  // [m2] around each cell
+  for (std::size_t f = 0; f < cells.facets().size(); ++f) {
+    const CellFacet& facet = cells.facets()[f];
+    for (const std::size_t side : {0, 1}) {
+      const int own = facet.cells[side], other = facet.cells[1 - side];
+      if (own >= 0 && other >= 0 && labels[static_cast<std::size_t>(other)] == Label::solid)
+        solid[static_cast<std::size_t>(own)] += evidence.facets[f].area;
+    }
+  }
+  for (std::size_t c = 0; c < labels.size(); ++c) {
+    const CellEvidence& e = evidence.cells[c];
+    if (labels[c] != Label::solid && 2 * e.volume < options.slit_width * e.around &&
+        solid[c] > options.slit_solid * e.around)
+      labels[c] = Label::solid;
+  }
+  return labels;
+}
+
 std::vector<Label> fill_pockets(const CellComplex& cells, const Evidence& evidence,
                                 std::vector<Label> labels, const LabelOptions& options) {
   DisjointSets sets(labels.size());

@@ -25,6 +25,8 @@ struct LabelOptions {
   double border_crossed = 0.01;  // ... where lines of sight go
   double volume = 0.2;           // for each m3 of free space that no line of sight crosses
   double min_volume = 0.05;      // [m3] of free space with no viewpoint in it; less is none
+  double slit_width = 0.01;      // [m] of a gap in what is solid; what is narrower is none ...
+  double slit_solid = 0.6;       // ... where so much of what is around it is solid
   int rounds = 4;                // at most, of cuts
 };
 
@@ -34,6 +36,11 @@ enum class Label : std::uint8_t { free, solid, unknown };
 // between solid and unknown there is nothing to pay.
 std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,
                                const LabelOptions& options = {});
+
+// Makes solid the cells that are slits in what is solid: over a door, where the lintel's edges are
+// a few millimetres apart on the two sides of the wall.
+std::vector<Label> fill_slits(const CellComplex& cells, const Evidence& evidence,
+                              std::vector<Label> labels, const LabelOptions& options = {});
 
 // Makes solid what is free, but too small to be in, if no viewpoint is in it.
 std::vector<Label> fill_pockets(const CellComplex& cells, const Evidence& evidence,

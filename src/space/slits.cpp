@@ -96,15 +96,14 @@ std::vector<int> close_slits(const CellComplex& cells, const std::vector<Label>&
   };
   std::vector<Strip> strips;
   std::vector<int> shown;
-  const auto sort_out = [&](const std::vector<int>& some, bool are_shown) {
-    for (const auto& sheet : find_sheets(cells, labels, edges, some))
-      if (closer.is_narrow(sheet, narrow))
-        for (const int f : sheet) strips.push_back({f, are_shown});
-      else if (are_shown)
-        shown.insert(shown.end(), sheet.begin(), sheet.end());
-  };
-  sort_out(facets.openings, false);
-  sort_out(facets.surfaces, true);
+  // An opening may have slits beside it; a surface's border is not to be gnawed at.
+  for (const int f : facets.openings)
+    if (closer.is_narrow({f}, narrow)) strips.push_back({f, false});
+  for (const auto& sheet : find_sheets(cells, labels, edges, facets.surfaces))
+    if (closer.is_narrow(sheet, narrow))
+      for (const int f : sheet) strips.push_back({f, true});
+    else
+      shown.insert(shown.end(), sheet.begin(), sheet.end());
   bool has_changed = true;
   for (int round = 0; round < kRounds && has_changed; ++round) {
     has_changed = false;

@@ -59,9 +59,9 @@ LabelledSpace label_space(const SpaceInput& in, const Outlook& outlook,
   std::vector<SpacePlane> planes = planes_of_space(in, outlook.sight, outlook.free, options.planes);
   Arrangement arrangement = arrange(planes, box_of(in.patches, viewpoints), options.arrange);
   Evidence evidence = find_evidence(arrangement, planes, outlook.covers, outlook.rays, in.up);
-  std::vector<Label> labels =
-      fill_pockets(arrangement.cells, evidence,
-                   label_cells(arrangement.cells, evidence, options.labels), options.labels);
+  std::vector<Label> labels = label_cells(arrangement.cells, evidence, options.labels);
+  labels = fill_slits(arrangement.cells, evidence, std::move(labels), options.labels);
+  labels = fill_pockets(arrangement.cells, evidence, std::move(labels), options.labels);
   return {std::move(planes), std::move(arrangement), std::move(evidence), std::move(labels)};
 }
 

@@ -91,8 +91,11 @@ space::Evidence bare_evidence(const space::CellComplex& cells) {
   for (const space::CellFacet& facet : cells.facets())
     evidence.facets.push_back({.area = cells.area_of(facet)});
   evidence.cells.resize(cells.cells().size());
-  for (std::size_t c = 0; c < evidence.cells.size(); ++c)
+  for (std::size_t c = 0; c < evidence.cells.size(); ++c) {
     evidence.cells[c].volume = cells.volume_of(static_cast<int>(c));
+    for (const int f : cells.cells()[c].facets)
+      evidence.cells[c].around += evidence.facets[static_cast<std::size_t>(f)].area;
+  }
   return evidence;
 }
 
