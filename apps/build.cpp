@@ -39,7 +39,7 @@ writes office/world.json, report.json, world.obj, world.stl, world.glb and world
 struct BuildRequest {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
-  std::string budget, sagitta;
+  std::string budget, sagitta, floor_tolerance;
   std::string method = "rival", preset;  // an empty preset: the one that suits the scan
   std::vector<std::string> assignments, exports = {"obj", "stl", "glb", "bullet"};
   int threads = 0;
@@ -59,6 +59,8 @@ ReconstructOptions resolve_options(const BuildRequest& request) {
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
+  if (!request.floor_tolerance.empty())
+    options.floor_tolerance = length_from("--floor-tolerance", request.floor_tolerance);
   options.record = request.record;
   options.frame.level |= request.level, options.frame.floor_at_zero |= request.floor_at_zero;
   return options;
@@ -263,6 +265,9 @@ void add_build(CLI::App& app) {
   verb->add_flag("--floor-at-zero", request->floor_at_zero,
                  "Move the world along up so that its largest floor is at height 0 (z = 0, with "
                  "--level)");
+  verb->add_option("--floor-tolerance", request->floor_tolerance,
+                   "What lies no higher on a floor is that floor, as carpets are: 2cm")
+      ->type_name("LENGTH");
   verb->add_flag("--labels", request->labels,
                  "Also write labels.ply: the surface of each input point");
   verb->add_flag("--record", request->record,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -104,6 +105,21 @@ FileKind kind_of(const std::filesystem::path& file) {
   if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return FileKind::mesh;
   if (extension == ".ply" && is_ply_mesh(file)) return FileKind::mesh;
   return FileKind::scan;
+}
+
+double length_from(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  const std::string unit = end;
+  const double factor = unit == "mm"                  ? 1e-3
+                        : unit == "cm"                ? 1e-2
+                        : unit == "m" || unit.empty() ? 1
+                                                      : 0;
+  const double metres = number * factor;
+  if (end == text.c_str() || !(metres >= 1e-5 && metres <= 10))
+    throw Error(Cause::usage,
+                option + ": '" + text + "' is no length from 0.01 mm to 10 m; write 5mm or 1cm");
+  return metres;
 }
 
 std::string text_of(const Vec3& v) {

@@ -50,6 +50,9 @@ struct Console {
 enum class FileKind { scan, mesh, world };
 FileKind kind_of(const std::filesystem::path& file);
 
+// What an option says, "5mm", "1cm", "0.01m" or "0.01", in metres; throws usage for other text.
+double length_from(const std::string& option, const std::string& text);
+
 std::string text_of(const Vec3& v);
 
 Json json_of(const Vec3& v);

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-
-#include "error.h"
 #include "world/refacet.h"
 
 namespace scanworld::cli {
@@ -20,19 +16,7 @@ void add_sagitta(CLI::App& verb, std::string& text) {
 }
 
 double sagitta_from(const std::string& text) {
-  if (text.empty()) return 0;
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
-  const double factor = unit == "mm"                  ? 1e-3
-                        : unit == "cm"                ? 1e-2
-                        : unit == "m" || unit.empty() ? 1
-                                                      : 0;
-  const double metres = number * factor;
-  if (end == text.c_str() || !(metres >= 1e-5 && metres <= 10))
-    throw Error(Cause::usage,
-                "--sagitta: '" + text + "' is no length from 0.01 mm to 10 m; write 5mm or 1cm");
-  return metres;
+  return text.empty() ? 0 : length_from("--sagitta", text);
 }
 
 World cut_anew(World world, double sagitta, const Console& console) {

@@ -13,7 +13,7 @@ namespace scanworld::cli {
 // Adds --sagitta to a verb.
 void add_sagitta(CLI::App& verb, std::string& text);
 
-// "5mm", "1cm", "0.01m" or "0.01" in metres; throws usage for other text. 0 for none.
+// In metres (length_from); 0 for no text.
 double sagitta_from(const std::string& text);
 
 // The world with new facets, and warnings about those that stay; as it is for a sagitta of 0.

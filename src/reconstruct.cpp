@@ -95,12 +95,10 @@ std::vector<FoundSurface> find_by_thesis(const PointCloud& cloud,
 }
 
 // The voxels' points with their planes.
-surface::Surroundings surroundings_of(const rival::Grid& grid, const rival::Clustering& clusters,
-                                      const std::vector<std::int32_t>& plane_of_cluster) {
+surface::Surroundings surroundings_of(const rival::Grid& grid, std::vector<std::int32_t> planes) {
   std::vector<Vec3f> sites;
   for (const rival::Site& site : grid.sites) sites.push_back(site.mean);
-  surface::Surroundings around =
-      surface::surroundings_of(std::move(sites), labels_by(plane_of_cluster, clusters.label));
+  surface::Surroundings around = surface::surroundings_of(std::move(sites), std::move(planes));
   around.viewers = grid.viewers;
   // No ray need have met a stray: a point alone and of no plane.
   for (std::size_t i = 0; i < around.viewers.size(); ++i)
@@ -241,19 +239,23 @@ Found find_by_rival(const PointCloud& cloud, const ReconstructOptions& all, Stag
   LabelledPoints labelled = log.run("Labelling points", "points -> planes", cloud, [&] {
     return label_points(cloud, grid, neighbors, scale, clusters, options.labels);
   });
+  labelled = log.run("Spreading floors", "planes -> planes", labelled, [&] {
+    return spread_floors(cloud, grid, neighbors, std::move(labelled), up,
+                         all.floor_tolerance + scale.noise);
+  });
   result.labels = std::move(labelled.labels);
   for (const LabelledPlane& plane : labelled.planes)
     result.report.plane_noise.push_back(plane.noise);
   std::vector<Plane> planes;
   for (const LabelledPlane& plane : labelled.planes) planes.push_back(plane.fit.plane);
   recorder.add("Evidence", "planes are turned parallel and square where the points allow it",
-               labels_by(labelled.plane_of, clusters.label), planes);
+               labelled.sites, planes);
   if (!curves.curves.empty())
     result.curve_labels = label_curve_points(cloud, grid, scale, curves, options.curves);
   const CutCurves round = cut_curves(cloud, curves.curves, all.surface.facets, planes, result);
   const double voxel = grid.voxel;
   const auto find_around = [&] {
-    surface::Surroundings around = surroundings_of(grid, clusters, labelled.plane_of);
+    surface::Surroundings around = surroundings_of(grid, std::move(labelled.sites));
     for (std::size_t i = 0; i < around.planes.size(); ++i)
       if (const std::int32_t c = curves.of_site[i]; c != kNone)
         around.planes[i] = round.plane_of(c, grid.sites[i].position());
@@ -284,9 +286,11 @@ void take(Mended mended, ReconstructResult& result) {
 }
 
 // Adds the solids of what no surface explains.
-void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ObstacleOptions& options,
+void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ReconstructOptions& asked,
                      StageLog& log, ReconstructResult& result) {
-  const ClutterScale scale{result.report.noise, result.report.spacing, std::move(noise)};
+  const ClutterScale scale{result.report.noise, result.report.spacing, asked.floor_tolerance,
+                           std::move(noise)};
+  const ObstacleOptions& options = asked.obstacles;
   Obstacles obstacles = log.run("Enclosing clutter", "points -> obstacles", cloud, [&] {
     std::vector<std::int32_t> explained = result.labels;
     for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
@@ -310,8 +314,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   Recorder recorder(options.record);
   StageLog log(result.report, progress,
                options.method == Method::thesis ? 16
-               : options.space.is_on            ? 34
-                                                : 33);
+               : options.space.is_on            ? 35
+                                                : 34);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);
@@ -353,7 +357,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival)
-    enclose_clutter(cloud, std::move(noise), options.obstacles, log, result);
+    enclose_clutter(cloud, std::move(noise), options, log, result);
   // A label names a surface; a curve has many.
   for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
     if (result.curve_labels[i] >= 0) result.labels[i] = -1;

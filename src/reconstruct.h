@@ -37,6 +37,7 @@ struct ReconstructOptions {
   ColliderOptions colliders;
   RoomOptions rooms;
   LevelOptions frame;
+  double floor_tolerance = 0.02;  // [m] what lies no higher on a floor is that floor: carpets
   bool record = false;  // also make a replay
 };
 

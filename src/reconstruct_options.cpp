@@ -25,6 +25,8 @@ OptionList list_options(ReconstructOptions& options) {
         list_options(options.colliders), list_options(options.obstacles),
         list_options(options.rooms), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
+  list.push_back({"floor_tolerance", &options.floor_tolerance, "m",
+                  "what lies no higher on a floor is that floor, as carpets are", 0});
   return list;
 }
 

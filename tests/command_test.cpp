@@ -467,6 +467,28 @@ TEST_CASE("a tilted scan is warned of, and built upright with its floor at 0 if 
   CHECK(read_world(folder / "s").frame.up == Vec3::UnitZ());
 }
 
+TEST_CASE("what lies on a floor is that floor up to --floor-tolerance") {
+  const TempFolder folder;
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.03, 0.002);
+  for (Vec3f& p : cloud.points)
+    if (p.x() > 1 && p.x() < 1.6f && p.y() > 1 && p.y() < 3 && p.z() < 0.1f) p.z() += 0.015f;
+  write_scan(folder / "rug.ply", cloud);
+  const auto obstacles = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "build", folder / "rug.ply",          "-o",       folder / "w",
+        "--set", "rival.evidence.min_area=5", "--export", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(run(words).code == 0);
+    return read_world(folder / "w").obstacles.size();
+  };
+  CHECK(obstacles({"--floor-tolerance", "1mm"}) > 0);
+  CHECK(obstacles({}) == 0);
+  const Outcome wrong =
+      run({"build", folder / "rug.ply", "-o", folder / "w", "--floor-tolerance", "wide"});
+  CHECK(wrong.code == 2);
+  CHECK(contains(wrong.err, "--floor-tolerance: 'wide' is no length"));
+}
+
 TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
   const TempFolder folder;
   CHECK(run({"scan", in_project("worlds/room.json"), "-o", folder / "s.ply", "--points", "100000",

@@ -83,20 +83,75 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
     }
   });
 
-  result.plane_of.assign(c.clusters.size(), kNone);
+  std::vector<std::int32_t> plane_of(c.clusters.size(), kNone);
   for (std::size_t k = 0; k < c.clusters.size(); ++k) {
     std::size_t points = 0;
     for (const auto& count : counts) points += count[k];
     if (points < static_cast<std::size_t>(options.min_points)) continue;
-    result.plane_of[k] = static_cast<std::int32_t>(result.planes.size());
+    plane_of[k] = static_cast<std::int32_t>(result.planes.size());
     result.planes.push_back({c.clusters[k].fit, noise[k]});
   }
   parallel_for(part_count(labels.size(), kSitesPerPart), [&](std::size_t part) {
     const auto [begin, end] = part_of(part, labels.size(), kSitesPerPart);
     for (std::size_t i = begin; i < end; ++i)
-      if (labels[i] != kNone) labels[i] = result.plane_of[static_cast<std::size_t>(labels[i])];
+      if (labels[i] != kNone) labels[i] = plane_of[static_cast<std::size_t>(labels[i])];
   });
+  for (const std::int32_t label : c.label)
+    result.sites.push_back(label == kNone ? kNone : plane_of[static_cast<std::size_t>(label)]);
   return result;
+}
+
+LabelledPoints spread_floors(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
+                             LabelledPoints labelled, const Vec3& up, double tolerance) {
+  constexpr double kLevel = 0.98;    // cosine of a floor's tilt, at least
+  constexpr double kMinFloor = 2.0;  // [m2] tables are smaller
+  std::vector<std::int32_t>& sites = labelled.sites;
+  const auto off = [&](std::int32_t plane, const Vec3& p) {
+    return std::abs(labelled.planes[static_cast<std::size_t>(plane)].fit.plane.signed_distance(p));
+  };
+  std::vector<double> area(labelled.planes.size());
+  for (const std::int32_t plane : sites)
+    if (plane != kNone) area[static_cast<std::size_t>(plane)] += grid.voxel * grid.voxel;
+  const auto takes = [&](std::int32_t plane, const Vec3& p) {
+    return plane != kNone && off(plane, p) <= tolerance &&
+           area[static_cast<std::size_t>(plane)] > kMinFloor &&
+           std::abs(labelled.planes[static_cast<std::size_t>(plane)].fit.plane.normal.dot(up)) >
+               kLevel;
+  };
+  // The nearest of those around, the first of equals.
+  const auto nearest_floor = [&](std::uint32_t site) {
+    const Vec3 p = grid.sites[site].position();
+    std::int32_t best = kNone;
+    for (const std::uint32_t other : neighbors.of(site))
+      if (const std::int32_t plane = sites[other];
+          takes(plane, p) &&
+          (best == kNone || std::pair{off(plane, p), plane} < std::pair{off(best, p), best}))
+        best = plane;
+    return best;
+  };
+  std::vector<std::uint32_t> front;
+  for (std::uint32_t i = 0; i < sites.size(); ++i)
+    if (sites[i] == kNone) front.push_back(i);
+  while (!front.empty()) {
+    // All of a round look at what was before it, so that their order does not matter.
+    std::vector<std::pair<std::uint32_t, std::int32_t>> found;
+    for (const std::uint32_t i : front)
+      if (const std::int32_t plane = nearest_floor(i); plane != kNone) found.emplace_back(i, plane);
+    front.clear();
+    for (const auto& [i, plane] : found) {
+      sites[i] = plane;
+      for (const std::uint32_t point : grid.points_of(i))
+        if (labelled.labels[point] == kNone && takes(plane, cloud.points[point].cast<double>()))
+          labelled.labels[point] = plane;
+    }
+    for (const auto& [i, plane] : found)
+      for (const std::uint32_t other : neighbors.of(i))
+        if (sites[other] == kNone && takes(plane, grid.sites[other].position()))
+          front.push_back(other);
+    std::sort(front.begin(), front.end());
+    front.erase(std::unique(front.begin(), front.end()), front.end());
+  }
+  return labelled;
 }
 
 }  // namespace scanworld::rival

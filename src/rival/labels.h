@@ -26,7 +26,7 @@ struct LabelledPlane {
 struct LabelledPoints {
   std::vector<std::int32_t> labels;  // for each point of the cloud its plane, or kNone
   std::vector<LabelledPlane> planes;
-  std::vector<std::int32_t> plane_of;  // for each cluster its plane, or kNone
+  std::vector<std::int32_t> sites;  // for each voxel the plane of its cluster, or kNone
 };
 
 inline std::size_t count_of(const LabelledPoints& points) { return points.planes.size(); }
@@ -35,5 +35,10 @@ inline std::size_t count_of(const LabelledPoints& points) { return points.planes
 LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
                             const Scale& scale, const Clustering& clustering,
                             const LabelOptions& options = {});
+
+// Gives what is of no plane and no farther than this [m] off a level one beside it to that, and so
+// on: what lies on a floor, as carpets do, is that floor.
+LabelledPoints spread_floors(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
+                             LabelledPoints labelled, const Vec3& up, double tolerance);
 
 }  // namespace scanworld::rival

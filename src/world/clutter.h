@@ -14,6 +14,7 @@ namespace scanworld {
 struct ClutterScale {
   double noise = 0.01;    // standard deviation of the points off their surface
   double spacing = 0.02;  // between neighbouring points on a surface
+  double floor_tolerance = 0;  // what is no farther from a floor is that floor
   NoiseMap local = {};    // where there is more noise
 };
 
