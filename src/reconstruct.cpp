@@ -285,6 +285,34 @@ void take(Mended mended, ReconstructResult& result) {
                                                   id_of.size(), fmt::join(mended.warnings, "; ")));
 }
 
+// Adds ground that no floor fits; labels and what is told of each surface follow. Returns the id of
+// the first facet.
+std::int32_t add_ground(const PointCloud& cloud, const surface::Surroundings& around,
+                        const ReconstructOptions& options, StageLog& log,
+                        ReconstructResult& result) {
+  const CloudInWorld place(cloud, result.world.frame);
+  // What is nearer can't be told from noise.
+  const double tolerance = std::max(options.floor_tolerance, 3 * result.report.noise);
+  ground::Ground found =
+      log.run("Finding ground", "surfaces -> facets", result.world.surfaces, [&] {
+        return ground::find_ground(std::move(result.world), places_of(around, place),
+                                   sight_lines_of(around, place),
+                                   {tolerance, result.report.spacing}, options.ground);
+      });
+  result.labels = label_ground(place, labels_by(found.new_id, std::move(result.labels)),
+                               tolerance + 2 * result.report.noise, found);
+  result.world = std::move(found.world);
+  const auto first = static_cast<std::int32_t>(result.world.surfaces.size() - found.facets);
+  if (result.report.plane_noise.empty()) return first;
+  std::vector<double> noise;
+  for (std::size_t i = 0; i < found.new_id.size(); ++i)
+    if (found.new_id[i] >= 0) noise.push_back(result.report.plane_noise[i]);
+  for (std::size_t i = noise.size(); i < result.world.surfaces.size(); ++i)
+    noise.push_back(result.world.surfaces[i].support.rms);
+  result.report.plane_noise = std::move(noise);
+  return first;
+}
+
 // Adds the solids of what no surface explains.
 void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ReconstructOptions& asked,
                      StageLog& log, ReconstructResult& result) {
@@ -314,8 +342,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   Recorder recorder(options.record);
   StageLog log(result.report, progress,
                options.method == Method::thesis ? 16
-               : options.space.is_on            ? 35
-                                                : 34);
+               : options.space.is_on            ? 36
+                                                : 35);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);
@@ -340,6 +368,9 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   result.world = assemble_world(found.surfaces, find_frame(cloud, facings_of(found.surfaces)));
   take(mend_surfaces(result.world), result);
   World& world = result.world;
+  const std::int32_t first_facet = options.method == Method::rival && options.ground.is_on
+                                       ? add_ground(cloud, found.around, options, log, result)
+                                       : static_cast<std::int32_t>(world.surfaces.size());
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
     const CloudInWorld place(cloud, world.frame);
     std::vector<Opening> openings = find_openings(world, sight_lines_of(found.around, place));
@@ -358,9 +389,11 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival)
     enclose_clutter(cloud, std::move(noise), options, log, result);
-  // A label names a surface; a curve has many.
+  // A label names a plane; curves and ground have many.
   for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
     if (result.curve_labels[i] >= 0) result.labels[i] = -1;
+  for (std::int32_t& label : result.labels)
+    if (label >= first_facet) label = -1;
   result.labels = distinct.expand(std::move(result.labels));
   result.curve_labels = distinct.expand(std::move(result.curve_labels));
   world = level_world(std::move(world), options.frame);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ground/ground.h"
 #include "options.h"
 #include "progress.h"
 #include "replay.h"
@@ -32,6 +33,7 @@ struct ReconstructOptions {
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
   space::SpaceOptions space;
+  ground::GroundOptions ground;
   ObstacleOptions obstacles;        // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;

@@ -361,3 +361,22 @@ TEST_CASE("the same colliders whatever the order of the surfaces") {
   const World none = with_colliders({});
   CHECK(none.colliders.empty());
 }
+
+TEST_CASE("ground has a prism straight down under each facet, with sides in common") {
+  World world = assemble_world(
+      {face({{0, 0, 0}, {4, 0, 0}, {4, 3, 1}}), face({{0, 0, 0}, {4, 3, 1}, {0, 3, 0.5}})},
+      Frame{});
+  for (Surface& s : world.surfaces) s.ground = true;
+  const std::vector<Collider> colliders = make_colliders(world);
+  REQUIRE(colliders.size() == 2);
+  for (const Collider& c : colliders) {
+    const auto& prism = std::get<ConvexPrism>(c.shape);
+    CHECK(prism.extrusion == Vec3(0, 0, -0.5));
+    const Surface& s = *find_surface(world, c.surface);
+    REQUIRE(prism.base.size() == s.outer.size());
+    for (const Vec3& p : prism.base)
+      CHECK(std::any_of(s.outer.begin(), s.outer.end(), [&](int v) {
+        return (world.vertices[static_cast<std::size_t>(v)] - p).norm() < 1e-9;
+      }));
+  }
+}

@@ -108,3 +108,30 @@ TEST_CASE("triangles of a polygon with many holes cover it, however it is turned
     CHECK(twice == doctest::Approx(expected));
   }
 }
+
+TEST_CASE("a Delaunay triangulation covers the hull, and no place is in a triangle's circle") {
+  Random random(4);
+  std::vector<Vec2> places = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int i = 0; i < 60; ++i) places.emplace_back(random.uniform(), random.uniform());
+  double area = 0;
+  for (const auto& t : geos::delaunay(places)) {
+    area += doubled_area(std::vector<Vec2>(t.begin(), t.end())) / 2;
+    for (const Vec2& p : places) {
+      Eigen::Matrix3d in_circle;
+      for (int k = 0; k < 3; ++k) {
+        const Vec2 d = t[static_cast<std::size_t>(k)] - p;
+        in_circle.row(k) << d.x(), d.y(), d.squaredNorm();
+      }
+      CHECK(in_circle.determinant() < 1e-12);
+    }
+  }
+  CHECK(area == doctest::Approx(1));
+  CHECK(geos::delaunay({{0, 0}, {1, 1}}).empty());
+}
+
+TEST_CASE("what polygons have in common is cut out of each") {
+  const auto parts = geos::intersect(
+      {block(0, 0, 4, 1)}, {{block(1, 0, 1, 2)}, {block(3, -1, 5, 5)}, {block(9, 9, 1, 1)}});
+  CHECK(parts.size() == 2);
+  CHECK(area_inside(parts) == doctest::Approx(2));
+}

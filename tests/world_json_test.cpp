@@ -90,7 +90,7 @@ TEST_CASE("the hash changes with the world, not with where it comes from") {
   CHECK(world_hash(world) != before);
 }
 
-TEST_CASE("a world is of version 2 only where something is round, and both are read") {
+TEST_CASE("a world is of version 2 only where something is round or uneven, and both are read") {
   World world = full_world();
   CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
   world.curves.clear();
@@ -99,6 +99,10 @@ TEST_CASE("a world is of version 2 only where something is round, and both are r
   CHECK(Json::parse(flat)["schema"]["version"] == 1);
   CHECK_FALSE(contains(flat, "curve"));
   CHECK(parse_world(flat, "w.json") == world);
+  world.surfaces[0].ground = true;
+  const std::string uneven = world_text(world);
+  CHECK(Json::parse(uneven)["schema"]["version"] == 2);
+  CHECK(parse_world(uneven, "w.json") == world);
 }
 
 TEST_CASE("the worlds that come with the program are valid text of this version") {

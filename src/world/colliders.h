@@ -9,6 +9,7 @@ namespace scanworld {
 struct ColliderOptions {
   SlabOptions slabs;
   ClearanceOptions clearance;
+  double ground_depth = 0.5;  // [m] of ground that no plane fits
 };
 
 // Solids for a physics engine behind all surfaces, docs/colliders.md: few, boxes wherever possible,

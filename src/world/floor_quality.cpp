@@ -53,8 +53,10 @@ class FloorSurvey {
  public:
   FloorSurvey(const World& world, const RayScene& scene, const FloorQualityOptions& options)
       : up_(world.frame.up), scene_(scene), options_(options) {
+    // Uneven ground is in facets.
     for (Face& face : faces_of(world))
-      if (face.area > 0 && face.surface->kind == Kind::floor) faces_.push_back(std::move(face));
+      if (face.area > 0 && face.surface->kind == Kind::floor && !face.surface->ground)
+        faces_.push_back(std::move(face));
   }
 
   FloorQuality run() const {

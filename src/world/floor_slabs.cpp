@@ -22,7 +22,8 @@ using Group = std::vector<std::size_t>;
 std::vector<Group> group_floors(const std::vector<Face>& faces) {
   std::vector<std::size_t> floors;
   for (std::size_t i = 0; i < faces.size(); ++i)
-    if (faces[i].area > 0 && faces[i].surface->kind == Kind::floor) floors.push_back(i);
+    if (faces[i].area > 0 && faces[i].surface->kind == Kind::floor && !faces[i].surface->ground)
+      floors.push_back(i);
   std::stable_sort(floors.begin(), floors.end(),
                    [&](std::size_t a, std::size_t b) { return faces[a].area > faces[b].area; });
   std::vector<Group> groups;

@@ -106,6 +106,25 @@ Geometry offset(const Context& context, const Geometry& geometry, double distanc
 
 using Triangles = std::vector<std::array<Vec2, 3>>;
 
+// Those among the parts of a geometry.
+Triangles triangles_of(const Context& context, const GEOSGeometry* geometry) {
+  Triangles triangles;
+  const int count = GEOSGetNumGeometries_r(context.handle, geometry);
+  for (int i = 0; i < count; ++i) {
+    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, geometry, i);
+    const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
+    triangles.push_back({p[0], p[1], p[2]});
+  }
+  return triangles;
+}
+
+void turn_left(Triangles& triangles) {
+  for (auto& t : triangles) {
+    const Vec2 ab = t[1] - t[0], ac = t[2] - t[0];
+    if (ab.x() * ac.y() - ab.y() * ac.x() <= 0) std::swap(t[1], t[2]);
+  }
+}
+
 std::optional<Triangles> try_to_triangulate(const Rings& rings) {
   const Context context;
   const Geometry polygon = polygon_of(context, rings);
@@ -113,14 +132,7 @@ std::optional<Triangles> try_to_triangulate(const Rings& rings) {
   const Geometry result(GEOSConstrainedDelaunayTriangulation_r(context.handle, polygon.get()),
                         Free{context.handle});
   if (!result) return std::nullopt;
-  Triangles triangles;
-  const int count = GEOSGetNumGeometries_r(context.handle, result.get());
-  for (int i = 0; i < count; ++i) {
-    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context.handle, result.get(), i);
-    const std::vector<Vec2> p = corners(context, GEOSGetExteriorRing_r(context.handle, triangle));
-    triangles.push_back({p[0], p[1], p[2]});
-  }
-  return triangles;
+  return triangles_of(context, result.get());
 }
 
 }  // namespace
@@ -183,10 +195,7 @@ std::optional<Triangles> triangulate(const Rings& rings) {
       for (Vec2& p : triangle) p = original.at({p.x(), p.y()});
   }
   if (!triangles) return std::nullopt;
-  for (auto& t : *triangles) {
-    const Vec2 ab = t[1] - t[0], ac = t[2] - t[0];
-    if (ab.x() * ac.y() - ab.y() * ac.x() <= 0) std::swap(t[1], t[2]);
-  }
+  turn_left(*triangles);
   return triangles;
 }
 
@@ -223,6 +232,36 @@ std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& othe
   const Geometry core = offset(context, left, -min_width / 2);
   if (core) collect(context, offset(context, core, min_width / 2).get(), result);
   return result;
+}
+
+std::vector<Rings> intersect(const Rings& polygon, const std::vector<Rings>& others) {
+  const Context context;
+  const Geometry own = polygon_of(context, polygon);
+  std::vector<Rings> result;
+  for (const Rings& rings : others) {
+    const Geometry other = polygon_of(context, rings);
+    if (!own || !other) continue;
+    const Geometry common(GEOSIntersection_r(context.handle, own.get(), other.get()),
+                          Free{context.handle});
+    collect(context, common.get(), result);
+  }
+  return result;
+}
+
+Triangles delaunay(const std::vector<Vec2>& places) {
+  const Context context;
+  std::vector<double> xy;
+  for (const Vec2& p : places) xy.insert(xy.end(), {p.x(), p.y()});
+  GEOSCoordSequence* sequence = GEOSCoordSeq_copyFromBuffer_r(
+      context.handle, xy.data(), static_cast<unsigned>(places.size()), 0, 0);
+  const Geometry line(GEOSGeom_createLineString_r(context.handle, sequence), Free{context.handle});
+  if (!line) return {};
+  const Geometry result(GEOSDelaunayTriangulation_r(context.handle, line.get(), 0, 0),
+                        Free{context.handle});
+  if (!result) return {};
+  Triangles triangles = triangles_of(context, result.get());
+  turn_left(triangles);
+  return triangles;
 }
 
 }  // namespace scanworld::geos

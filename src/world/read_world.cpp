@@ -141,7 +141,7 @@ InferredPart read_inferred(const Node& n) {
 
 Surface read_surface(const Node& n) {
   n.expect_keys({"id", "kind", "source", "plane", "outer", "holes", "support", "?thickness",
-                 "?color", "?curve", "?inferred"});
+                 "?color", "?curve", "?inferred", "?ground"});
   const Node plane = n.at("plane");
   plane.expect_keys({"normal", "offset"});
   Surface s;
@@ -155,6 +155,7 @@ Surface read_surface(const Node& n) {
   if (n.has("thickness")) s.thickness = n.at("thickness").number();
   if (n.has("color")) s.color = read_color(n.at("color"));
   if (n.has("curve")) s.curve = n.at("curve").integer();
+  if (n.has("ground")) s.ground = n.at("ground").boolean();
   if (n.has("inferred")) s.inferred = n.at("inferred").list(read_inferred);
   return s;
 }

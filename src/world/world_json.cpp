@@ -51,6 +51,7 @@ Json to_json(const Surface& s) {
   if (s.thickness) j["thickness"] = *s.thickness;
   if (s.color) j["color"] = {s.color->r, s.color->g, s.color->b};
   if (s.curve) j["curve"] = *s.curve;
+  if (s.ground) j["ground"] = true;
   for (const InferredPart& part : s.inferred) {
     Json holes = Json::array();
     for (const auto& hole : part.holes) holes.push_back(to_json(hole));
@@ -134,10 +135,11 @@ Json list_of(const std::vector<T>& items) {
 }
 
 Json to_json(const World& w) {
-  // Who knows version 1 alone can read what has nothing round or inferred in part in it.
+  // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it.
   const bool is_plain =
-      w.curves.empty() && std::all_of(w.surfaces.begin(), w.surfaces.end(),
-                                      [](const Surface& s) { return s.inferred.empty(); });
+      w.curves.empty() && std::all_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
+        return s.inferred.empty() && !s.ground;
+      });
   const int version = is_plain ? 1 : kWorldSchemaVersion;
   Json j = {{"schema", {{"name", "scanworld"}, {"version", version}}},
             {"frame", to_json(w.frame)},

@@ -1,0 +1,461 @@
+// SPDX-FileCopyrightText: 2026 The scanworld authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../parallel.h"
+#include "../polygon.h"
+#include "../world/simplify.h"
+#include "../world/surface_rings.h"
+#include "../world/vertex_pool.h"
+
+namespace scanworld::ground {
+
+namespace {
+
+using surface::Raster;
+
+// Of a world's axes, with heights along up.
+struct Level {
+  Vec3 up;
+  PlaneFrame frame;
+
+  explicit Level(const Vec3& axis) : up(axis), frame(frame_of({axis, 0})) {}
+  Spot spot(const Vec3& p) const { return {frame.to_plane(p), up.dot(p)}; }
+  Vec3 to_space(const Vec2& p, double height) const {
+    return frame.to_space(p) + (height - up.dot(frame.origin)) * up;
+  }
+};
+
+// A floor and the cells whose middles are in it.
+struct Floor {
+  std::size_t surface;  // index
+  std::vector<std::size_t> cells;
+  Plane plane;
+
+  double height_at(const Level& level, const Vec2& p) const {
+    const Vec3 at = level.to_space(p, 0);
+    return -plane.signed_distance(at) / plane.normal.dot(level.up);
+  }
+};
+
+Vec2 middle(const Raster& raster, std::size_t i) {
+  const auto width = static_cast<std::size_t>(raster.width);
+  return raster.middle(static_cast<int>(i % width), static_cast<int>(i / width));
+}
+
+// The surfaces of a world whose normals have a component along up in a range, the largest first.
+std::vector<Floor> flats_of(const World& world, const Level& level, const Raster& raster,
+                            double least, double most) {
+  std::vector<Floor> flats;
+  for (std::size_t s = 0; s < world.surfaces.size(); ++s) {
+    const Surface& surface = world.surfaces[s];
+    const double rise = surface.plane.normal.dot(level.up);
+    if (surface.curve || rise < least || rise > most) continue;
+    Floor flat{.surface = s, .cells = {}, .plane = surface.plane};
+    geos::Rings rings;
+    Eigen::AlignedBox2d box;
+    const auto add = [&](const Loop& loop) {
+      rings.emplace_back();
+      for (int v : loop) {
+        rings.back().push_back(level.frame.to_plane(world.vertices[static_cast<std::size_t>(v)]));
+        box.extend(rings.back().back());
+      }
+    };
+    add(surface.outer);
+    for (const Loop& hole : surface.holes) add(hole);
+    const Vec2 low = (box.min() - raster.low) / raster.cell,
+               high = (box.max() - raster.low) / raster.cell;
+    for (int y = std::max(0, static_cast<int>(low.y())); y <= high.y() && y < raster.height; ++y)
+      for (int x = std::max(0, static_cast<int>(low.x())); x <= high.x() && x < raster.width; ++x)
+        if (is_inside(rings, raster.middle(x, y))) flat.cells.push_back(raster.index(x, y));
+    if (!flat.cells.empty()) flats.push_back(std::move(flat));
+  }
+  std::stable_sort(flats.begin(), flats.end(),
+                   [](const Floor& a, const Floor& b) { return a.cells.size() > b.cells.size(); });
+  return flats;
+}
+
+// The ground of one storey: it grows from the largest floor, and from those that lie beside what is
+// found by then. Takes them from the list, and leaves those that are over or under it.
+Heights grow_storey(const SpotColumns& spots, const Level& level, std::vector<Floor>& floors,
+                    const HeightOptions& options) {
+  constexpr double kApart = 1;  // [m] between a floor and one under it
+  Heights heights = spots.none();
+  for (bool is_first = true;; is_first = false) {
+    bool any = false;
+    std::vector<Floor> left;
+    Raster taken = heights.known;  // also by the floors of this round
+    for (Floor& floor : floors) {
+      std::size_t known = 0, apart = 0;
+      for (const std::size_t i : floor.cells) {
+        const double height = floor.height_at(level, middle(taken, i));
+        known += taken.bits[i];
+        apart += heights.known.bits[i] && std::abs(heights.height[i] - height) > kApart;
+      }
+      if (2 * apart > floor.cells.size() || (is_first && any)) {
+        left.push_back(std::move(floor));
+        continue;
+      }
+      if (20 * known > floor.cells.size()) continue;
+      for (const std::size_t i : floor.cells) {
+        if (taken.bits[i]) continue;
+        taken.bits[i] = 1;
+        const double expected = floor.height_at(level, middle(taken, i));
+        if (const auto height = spots.near(i, expected, 1.5 * options.tolerance)) {
+          heights.known.bits[i] = 1, heights.height[i] = *height;
+          any = true;
+        }
+      }
+    }
+    floors = std::move(left);
+    if (!any) return heights;
+    heights = grow_ground(spots, std::move(heights), options);
+  }
+}
+
+// Where one looks down through the ground that is asked about.
+Raster seen_through(const Heights& filled, const Level& level, const std::vector<SightLine>& lines,
+                    double margin) {
+  const Raster& raster = filled.known;
+  constexpr int kLines = 5;  // fewer are strays
+  std::vector<int> lines_through(raster.bits.size());
+  for (const SightLine& line : lines) {
+    const Spot to = level.spot(line.to), from = level.spot(line.from);
+    const auto end = raster.find(to.at);
+    if (!end || !raster.bits[*end] || to.height > filled.height[*end] - margin) continue;
+    const double length = (from.at - to.at).norm();
+    const int steps = static_cast<int>(length / raster.cell) + 1;
+    for (int k = 0; k <= steps; ++k) {
+      const double t = k / static_cast<double>(steps);
+      const auto at = raster.find(to.at + t * (from.at - to.at));
+      if (!at || !raster.bits[*at] ||
+          to.height + t * (from.height - to.height) > filled.height[*at])
+        break;
+      ++lines_through[*at];
+    }
+  }
+  Raster open = surface::empty_like(raster);
+  for (std::size_t i = 0; i < open.bits.size(); ++i) open.bits[i] = lines_through[i] >= kLines;
+  return open;
+}
+
+// Sets the heights of the cells that are set beyond those that are known, as those lead to expect;
+// what nothing can be said of is not set.
+Heights filled(const Heights& heights, const Raster& wanted, int reach) {
+  Heights all = heights;
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < wanted.bits.size(); ++i)
+    if (wanted.bits[i] && !heights.known.bits[i]) missing.push_back(i);
+  constexpr std::size_t kPart = 64;
+  constexpr double kMaxStep = 0.3;  // [m] ground that rises by more in a gap is not one
+  parallel_for(part_count(missing.size(), kPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, missing.size(), kPart);
+    const auto width = static_cast<std::size_t>(wanted.width);
+    for (std::size_t n = begin; n < end; ++n) {
+      const std::size_t i = missing[n];
+      for (int r = 2; r <= 2 * reach; r *= 2) {
+        const auto expected =
+            heights.expected(static_cast<int>(i % width), static_cast<int>(i / width), r);
+        if (!expected) continue;
+        if (expected->spread <= kMaxStep) all.known.bits[i] = 1, all.height[i] = expected->height;
+        break;
+      }
+    }
+  });
+  return all;
+}
+
+// Of the set cells those in connected pieces with so many that count, and such a share of them.
+Raster large_pieces(const Raster& wanted, const Raster& counts, std::size_t least,
+                    double least_share) {
+  Raster large = surface::empty_like(wanted), left = wanted;
+  std::vector<std::size_t> piece;
+  const auto width = static_cast<std::size_t>(wanted.width);
+  for (std::size_t start = 0; start < left.bits.size(); ++start) {
+    if (!left.bits[start]) continue;
+    piece = {start};
+    left.bits[start] = 0;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < piece.size(); ++n) {
+      count += counts.bits[piece[n]];
+      const int x = static_cast<int>(piece[n] % width), y = static_cast<int>(piece[n] / width);
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        if (left.is_set(x + dx, y + dy)) {
+          piece.push_back(left.index(x + dx, y + dy));
+          left.bits[piece.back()] = 0;
+        }
+    }
+    if (count >= least &&
+        static_cast<double>(count) >= least_share * static_cast<double>(piece.size()))
+      for (const std::size_t i : piece) large.bits[i] = 1;
+  }
+  return large;
+}
+
+class GroundFinder {
+ public:
+  GroundFinder(World& world, const std::vector<Vec3>& places, const std::vector<SightLine>& lines,
+               const GroundScale& scale, const GroundOptions& options)
+      : world_(world),
+        lines_(lines),
+        tolerance_(scale.tolerance),
+        options_(options),
+        heights_(options.heights),
+        level_(world.frame.up),
+        dropped_(world.surfaces.size()) {
+    for (const Vec3& p : places) spots_.push_back(level_.spot(p));
+    heights_.tolerance = tolerance_;
+    heights_.cell = std::max(heights_.cell, heights_.per_spacing * scale.spacing);
+    heights_.reach = std::max(heights_.reach, 2 * heights_.cell);
+  }
+
+  Ground find() {
+    const SpotColumns columns(spots_, heights_);
+    ground_.cells = columns.none().known;
+    constexpr double kWalkable = 0.9, kCeiling = -0.5;  // cosines
+    flats_ = flats_of(world_, level_, ground_.cells, kWalkable, 1);
+    ceilings_ = flats_of(world_, level_, ground_.cells, -1, kCeiling);
+    std::vector<Floor> floors;
+    for (const Floor& flat : flats_)
+      if (world_.surfaces[flat.surface].kind == Kind::floor &&
+          flat.cells.size() >= cells_of(options_.min_floor))
+        floors.push_back(flat);
+    while (!floors.empty()) {
+      const Heights known = grow_storey(columns, level_, floors, heights_);
+      const auto [ground, wanted] = uncovered(known);
+      if (std::count(wanted.bits.begin(), wanted.bits.end(), 1) == 0) continue;
+      cut_.push_back(cut_facets(ground, wanted, known.known, options_.error * tolerance_));
+    }
+    drop_floors();
+    for (const std::vector<Facet>& facets : cut_) add(facets);
+    drop_vertices(world_);
+    ground_.world = std::move(world_);
+    return std::move(ground_);
+  }
+
+ private:
+  std::size_t cells_of(double area) const {
+    return static_cast<std::size_t>(area / (ground_.cells.cell * ground_.cells.cell));
+  }
+
+  // The share of a floor's cells where the ground is known that are off it by more than the
+  // tolerance; 2 where it is none of this ground: where none is known, or most is far off.
+  double share_off(const Floor& floor, const Heights& seen) const {
+    constexpr double kNear = 0.15;  // [m]
+    std::size_t count = 0, off = 0, far = 0;
+    for (const std::size_t i : floor.cells) {
+      if (!seen.known.bits[i]) continue;
+      const double distance =
+          std::abs(seen.height[i] - floor.height_at(level_, middle(seen.known, i)));
+      ++count, off += distance > tolerance_, far += distance > kNear;
+    }
+    return count == 0 || 2 * far > count ? 2
+                                         : static_cast<double>(off) / static_cast<double>(count);
+  }
+
+  // The ground of a storey that none of the floors that stay covers.
+  std::pair<Heights, Raster> uncovered(const Heights& heights) {
+    constexpr double kRoom = 1.5;  // [m] under a ceiling
+    const Heights seen = heights.smoothed(3, 2 * tolerance_);
+    const Raster& known = seen.known;
+    const int reach = std::max(1, static_cast<int>(std::lround(heights_.reach / known.cell)));
+    const int margin = static_cast<int>(std::ceil(options_.margin / known.cell));
+    Heights ground = filled(seen, surface::grow(surface::close(known, reach), margin), reach);
+    const Raster open = seen_through(ground, level_, lines_, 5 * tolerance_);
+    for (std::size_t i = 0; i < open.bits.size(); ++i)
+      if (open.bits[i] && !known.bits[i]) ground.known.bits[i] = 0;
+
+    std::vector<const Floor*> unfit;
+    Raster covered = surface::empty_like(known);
+    std::vector<double> floor_height(known.bits.size(), -1e300);
+    for (const Floor& floor : flats_) {
+      const double off = share_off(floor, seen);
+      if (off > 1) continue;
+      if (off > options_.max_off) {
+        unfit.push_back(&floor);
+        continue;
+      }
+      for (const std::size_t i : floor.cells) {
+        covered.bits[i] = 1;
+        floor_height[i] = std::max(floor_height[i], floor.height_at(level_, middle(known, i)));
+      }
+    }
+    ground = ground.smoothed(3, 2 * tolerance_);
+    Raster wanted = ground.known;
+    for (std::size_t i = 0; i < wanted.bits.size(); ++i) wanted.bits[i] &= !covered.bits[i];
+    // What is seen right beside a floor may be the floor's, and rooms have floors.
+    Raster counts = known;
+    const Raster beside = surface::grow(covered, margin);
+    for (std::size_t i = 0; i < counts.bits.size(); ++i) counts.bits[i] &= !beside.bits[i];
+    for (const Floor& ceiling : ceilings_)
+      for (const std::size_t i : ceiling.cells)
+        if (ceiling.height_at(level_, middle(known, i)) > ground.height[i] + kRoom)
+          counts.bits[i] = 0;
+    wanted = large_pieces(wanted, counts, cells_of(options_.min_area), options_.min_seen);
+
+    for (const Floor* floor : unfit) {
+      std::size_t all = 0, taken = 0;
+      for (const std::size_t i : floor->cells)
+        all += known.bits[i], taken += known.bits[i] && wanted.bits[i];
+      if (2 * taken > all) dropped_[floor->surface] = 1;
+    }
+    note_parts(wanted, seen);
+    // A little goes on under the floors around, where that is not over them.
+    Heights own{.known = wanted, .height = ground.height};
+    Heights under = filled(own, surface::grow(wanted, margin), margin + 2);
+    for (std::size_t i = 0; i < wanted.bits.size(); ++i)
+      if (covered.bits[i] && under.known.bits[i] && !wanted.bits[i] &&
+          under.height[i] <= floor_height[i] + tolerance_ / 2)
+        wanted.bits[i] = 1, ground.height[i] = under.height[i], ground.known.bits[i] = 1;
+    return {std::move(ground), std::move(wanted)};
+  }
+
+  bool is_level(const Floor& floor) const {
+    double low = 1e300, high = -1e300;
+    for (const std::size_t i : floor.cells) {
+      const double height = floor.height_at(level_, middle(ground_.cells, i));
+      low = std::min(low, height), high = std::max(high, height);
+    }
+    return high - low <= tolerance_;
+  }
+
+  // Floors that stay, are not level and lie beside the cells of ground are parts of it.
+  void note_parts(const Raster& wanted, const Heights& seen) {
+    const Raster beside = surface::grow(wanted, 1);
+    for (const Floor& floor : flats_) {
+      const bool is_beside = std::any_of(floor.cells.begin(), floor.cells.end(),
+                                         [&](std::size_t i) { return beside.bits[i] != 0; });
+      if (is_beside && !is_level(floor) && share_off(floor, seen) <= options_.max_off)
+        world_.surfaces[floor.surface].ground = true,
+        world_.surfaces[floor.surface].kind = Kind::floor;
+    }
+  }
+
+  void drop_floors() {
+    std::vector<Surface> kept;
+    for (std::size_t s = 0; s < dropped_.size(); ++s) {
+      ground_.new_id.push_back(dropped_[s] ? -1 : static_cast<std::int32_t>(kept.size()));
+      if (dropped_[s]) continue;
+      kept.push_back(std::move(world_.surfaces[s]));
+      kept.back().id = ground_.new_id.back();
+    }
+    world_.surfaces = std::move(kept);
+  }
+
+  // Adds the facets of a storey.
+  void add(const std::vector<Facet>& facets) {
+    std::vector<std::int32_t> id_of_cell(ground_.cells.bits.size(), -1);
+    VertexPool pool(world_.vertices);
+    for (const Facet& facet : facets) {
+      const auto place = [&](const Vec2& p) { return level_.to_space(p, facet.height_at(p)); };
+      const auto loop_of = [&](const std::vector<Vec2>& ring) {
+        std::vector<Vec3> points;
+        for (const Vec2& p : ring) points.push_back(place(p));
+        return pool.add(points);
+      };
+      const int id = static_cast<int>(world_.surfaces.size());
+      const Vec3 normal =
+          level_.up - facet.slope.x() * level_.frame.u - facet.slope.y() * level_.frame.v;
+      Surface s{.id = id,
+                .kind = Kind::floor,
+                .source = facet.seen > 0 ? Source::measured : Source::inferred,
+                .plane = plane_through(place(facet.rings[0][0]), normal.normalized()),
+                .outer = loop_of(facet.rings[0]),
+                .ground = true};
+      if (s.outer.size() < 3) continue;
+      for (std::size_t k = 1; k < facet.rings.size(); ++k)
+        s.holes.push_back(loop_of(facet.rings[k]));
+      if (facet.seen > 0)
+        s.support.coverage =
+            static_cast<double>(facet.seen) / static_cast<double>(facet.cells.size());
+      for (const std::size_t i : facet.cells) id_of_cell[i] = id;
+      world_.surfaces.push_back(std::move(s));
+      ++ground_.facets;
+    }
+    ground_.id_of_cell.push_back(std::move(id_of_cell));
+  }
+
+  World& world_;
+  const std::vector<SightLine>& lines_;
+  const double tolerance_;
+  const GroundOptions options_;
+  HeightOptions heights_;
+  const Level level_;
+  std::vector<Spot> spots_;
+  std::vector<Floor> flats_;  // all that can be walked on, the largest first
+  std::vector<Floor> ceilings_;
+  std::vector<std::uint8_t> dropped_;  // surfaces
+  std::vector<std::vector<Facet>> cut_;
+  Ground ground_;
+};
+
+}  // namespace
+
+Ground find_ground(World world, const std::vector<Vec3>& places,
+                   const std::vector<SightLine>& lines, const GroundScale& scale,
+                   const GroundOptions& options) {
+  return GroundFinder(world, places, lines, scale, options).find();
+}
+
+std::vector<std::int32_t> label_ground(const CloudInWorld& cloud, std::vector<std::int32_t> labels,
+                                       double tolerance, Ground& ground) {
+  if (ground.facets == 0) return labels;
+  std::vector<Surface>& surfaces = ground.world.surfaces;
+  const auto first = static_cast<std::int32_t>(surfaces.size() - ground.facets);
+  const Level level(ground.world.frame.up);
+  const auto facet_at = [&](const Vec3& p) {
+    if (const auto at = ground.cells.find(level.frame.to_plane(p)))
+      for (const std::vector<std::int32_t>& ids : ground.id_of_cell)
+        if (const std::int32_t id = ids[*at];
+            id >= 0 &&
+            std::abs(surfaces[static_cast<std::size_t>(id)].plane.signed_distance(p)) <= tolerance)
+          return id;
+    return -1;
+  };
+  constexpr std::size_t kPart = 1 << 14;
+  parallel_for(part_count(labels.size(), kPart), [&](std::size_t part) {
+    const auto [begin, end] = part_of(part, labels.size(), kPart);
+    for (std::size_t i = begin; i < end; ++i)
+      if (labels[i] < 0) labels[i] = facet_at(cloud.point(i));
+  });
+  // Sums of whole numbers, so that the order of the points does not matter.
+  constexpr double kUnit = 1e-6;  // [m]
+  std::vector<std::int64_t> squares(surfaces.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < first) continue;
+    Surface& s = surfaces[static_cast<std::size_t>(labels[i])];
+    const auto off = std::llround(s.plane.signed_distance(cloud.point(i)) / kUnit);
+    ++s.support.points, squares[static_cast<std::size_t>(labels[i])] += off * off;
+  }
+  for (Surface& s : surfaces)
+    if (s.id >= first && s.support.points > 0)
+      s.support.rms =
+          kUnit * std::sqrt(static_cast<double>(squares[static_cast<std::size_t>(s.id)]) /
+                            static_cast<double>(s.support.points));
+  return labels;
+}
+
+OptionList list_options(GroundOptions& o) {
+  return {
+      {"ground.on", &o.is_on, "", "whether ground that no plane fits is found"},
+      {"ground.cell", &o.heights.cell, "m", "edge of the cells that have a height each", 0.01},
+      {"ground.per_spacing", &o.heights.per_spacing, "",
+       "and at least so many times the spacing of the scan", 0},
+      {"ground.turn", &o.heights.turn, "",
+       "ground turns by no more for each metre to what is known of it", 0},
+      {"ground.reach", &o.heights.reach, "m",
+       "gaps in what is seen of it are closed up to twice this", 0},
+      {"ground.min_area", &o.min_area, "m2", "that was seen of ground that no floor fits", 0},
+      {"ground.min_seen", &o.min_seen, "", "share of such ground that was seen", 0, 1},
+      {"ground.min_floor", &o.min_floor, "m2", "of a floor that ground goes on from", 0},
+      {"ground.max_off", &o.max_off, "",
+       "share of a floor's cells off the ground; a floor with more is none", 0, 1},
+      {"ground.error", &o.error, "floor_tolerance", "facets are off the ground by no more", 0.01},
+      {"ground.margin", &o.margin, "m", "ground goes on so far under what stands on it", 0},
+  };
+}
+
+}  // namespace scanworld::ground
