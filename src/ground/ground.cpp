@@ -303,13 +303,14 @@ class GroundFinder {
       if (2 * taken > all) dropped_[floor->surface] = 1;
     }
     note_parts(wanted, seen);
-    // A little goes on under the floors around, where that is not over them.
-    Heights own{.known = wanted, .height = ground.height};
-    Heights under = filled(own, surface::grow(wanted, margin), margin + 2);
+    // A little goes on under the floors around; where it is over them, down to them.
+    const Heights own{.known = wanted, .height = ground.height};
+    const Heights under = filled(own, surface::grow(wanted, margin), margin + 2);
     for (std::size_t i = 0; i < wanted.bits.size(); ++i)
-      if (covered.bits[i] && under.known.bits[i] && !wanted.bits[i] &&
-          under.height[i] <= floor_height[i] + tolerance_ / 2)
-        wanted.bits[i] = 1, ground.height[i] = under.height[i], ground.known.bits[i] = 1;
+      if (covered.bits[i] && under.known.bits[i] && !wanted.bits[i]) {
+        wanted.bits[i] = ground.known.bits[i] = 1;
+        ground.height[i] = std::min(under.height[i], floor_height[i]);
+      }
     return {std::move(ground), std::move(wanted)};
   }
 
