@@ -293,11 +293,11 @@ std::int32_t add_ground(const PointCloud& cloud, const surface::Surroundings& ar
   const CloudInWorld place(cloud, result.world.frame);
   // What is nearer can't be told from noise.
   const double tolerance = std::max(options.floor_tolerance, 3 * result.report.noise);
-  ground::Ground found =
+  terrain::Ground found =
       log.run("Finding ground", "surfaces -> facets", result.world.surfaces, [&] {
-        return ground::find_ground(std::move(result.world), places_of(around, place),
-                                   sight_lines_of(around, place),
-                                   {tolerance, result.report.spacing}, options.ground);
+        return terrain::find_ground(std::move(result.world), places_of(around, place),
+                                    sight_lines_of(around, place),
+                                    {tolerance, result.report.spacing}, options.ground);
       });
   result.labels = label_ground(place, labels_by(found.new_id, std::move(result.labels)),
                                tolerance + 2 * result.report.noise, found);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "ground/ground.h"
 #include "options.h"
 #include "progress.h"
 #include "replay.h"
@@ -15,6 +14,7 @@
 #include "rival/rival.h"
 #include "space/space.h"
 #include "surface/surface.h"
+#include "terrain/ground.h"
 #include "thesis/thesis.h"
 #include "world/colliders.h"
 #include "world/level.h"
@@ -33,14 +33,14 @@ struct ReconstructOptions {
   thesis::ThesisOptions thesis;
   surface::SurfaceOptions surface;  // the polygons of rival
   space::SpaceOptions space;
-  ground::GroundOptions ground;
-  ObstacleOptions obstacles;        // and what no polygon explains
+  terrain::GroundOptions ground;
+  ObstacleOptions obstacles;  // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;
   RoomOptions rooms;
   LevelOptions frame;
   double floor_tolerance = 0.02;  // [m] what lies no higher on a floor is that floor: carpets
-  bool record = false;  // also make a replay
+  bool record = false;            // also make a replay
 };
 
 struct ReconstructResult {

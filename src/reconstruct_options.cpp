@@ -21,10 +21,9 @@ OptionList list_options(ReconstructOptions& options) {
   OptionList list = rival::list_options(options.rival);
   for (const OptionList& more :
        {surface::list_options(options.surface), space::list_options(options.space),
-        ground::list_options(options.ground),
-        thesis::list_options(options.thesis), list_options(options.thickness),
-        list_options(options.colliders), list_options(options.obstacles),
-        list_options(options.rooms), list_options(options.frame)})
+        terrain::list_options(options.ground), thesis::list_options(options.thesis),
+        list_options(options.thickness), list_options(options.colliders),
+        list_options(options.obstacles), list_options(options.rooms), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   list.push_back({"floor_tolerance", &options.floor_tolerance, "m",
                   "what lies no higher on a floor is that floor, as carpets are", 0});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ground/ground.h"
+#include "terrain/ground.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@
 
 using namespace scanworld;
 using namespace scanworld::test;
-using namespace scanworld::ground;
+using namespace scanworld::terrain;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "../world/geos.h"
 #include "heights.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 // A flat piece of ground seen from above: the height at p is slope * p + base.
 struct Facet {
@@ -25,4 +25,4 @@ struct Facet {
 std::vector<Facet> cut_facets(const Heights& heights, const surface::Raster& wanted,
                               const surface::Raster& seen, double error);
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain

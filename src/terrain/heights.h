@@ -8,7 +8,7 @@
 
 #include "../surface/raster.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 // A place seen from above, and how high it is [m].
 struct Spot {
@@ -73,4 +73,4 @@ class SpotColumns {
 // growing with a local plane as the predictor.
 Heights grow_ground(const SpotColumns& spots, Heights heights, const HeightOptions& options = {});
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain

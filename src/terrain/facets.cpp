@@ -9,7 +9,7 @@
 #include "../polygon.h"
 #include "../surface/raster_outlines.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 namespace {
 
@@ -148,4 +148,4 @@ std::vector<Facet> cut_facets(const Heights& heights, const surface::Raster& wan
   return FacetCutter(heights, wanted, seen, error).cut();
 }
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain

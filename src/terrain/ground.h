@@ -6,7 +6,7 @@
 #include "../world/openings.h"
 #include "facets.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 struct GroundOptions {
   bool is_on = true;
@@ -53,4 +53,4 @@ Ground find_ground(World world, const std::vector<Vec3>& places,
 std::vector<std::int32_t> label_ground(const CloudInWorld& cloud, std::vector<std::int32_t> labels,
                                        double tolerance, Ground& ground);
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain

@@ -7,7 +7,7 @@
 
 #include "../parallel.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 namespace {
 
@@ -144,4 +144,4 @@ Heights grow_ground(const SpotColumns& spots, Heights heights, const HeightOptio
   return heights;
 }
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain

@@ -11,7 +11,7 @@
 #include "../world/surface_rings.h"
 #include "../world/vertex_pool.h"
 
-namespace scanworld::ground {
+namespace scanworld::terrain {
 
 namespace {
 
@@ -459,4 +459,4 @@ OptionList list_options(GroundOptions& o) {
   };
 }
 
-}  // namespace scanworld::ground
+}  // namespace scanworld::terrain
