@@ -287,19 +287,17 @@ void take(Mended mended, ReconstructResult& result) {
 
 // Adds ground that no floor fits; labels and what is told of each surface follow. Returns the id of
 // the first facet.
-std::int32_t add_ground(const PointCloud& cloud, const surface::Surroundings& around,
-                        const ReconstructOptions& options, StageLog& log,
-                        ReconstructResult& result) {
-  const CloudInWorld place(cloud, result.world.frame);
+std::int32_t add_ground(const CloudInWorld& cloud, const std::vector<Vec3>& places,
+                        const std::vector<SightLine>& lines, const ReconstructOptions& options,
+                        StageLog& log, ReconstructResult& result) {
   // What is nearer can't be told from noise.
   const double tolerance = std::max(options.floor_tolerance, 3 * result.report.noise);
   terrain::Ground found =
       log.run("Finding ground", "surfaces -> facets", result.world.surfaces, [&] {
-        return terrain::find_ground(std::move(result.world), places_of(around, place),
-                                    sight_lines_of(around, place),
+        return terrain::find_ground(std::move(result.world), places, lines,
                                     {tolerance, result.report.spacing}, options.ground);
       });
-  result.labels = label_ground(place, labels_by(found.new_id, std::move(result.labels)),
+  result.labels = label_ground(cloud, labels_by(found.new_id, std::move(result.labels)),
                                tolerance + 2 * result.report.noise, found);
   result.world = std::move(found.world);
   const auto first = static_cast<std::int32_t>(result.world.surfaces.size() - found.facets);
@@ -340,10 +338,9 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(result.report, progress,
-               options.method == Method::thesis ? 16
-               : options.space.is_on            ? 36
-                                                : 35);
+  StageLog log(
+      result.report, progress,
+      options.method == Method::thesis ? 16 : 34 + options.space.is_on + options.ground.is_on);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);
@@ -368,20 +365,22 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   result.world = assemble_world(found.surfaces, find_frame(cloud, facings_of(found.surfaces)));
   take(mend_surfaces(result.world), result);
   World& world = result.world;
+  const CloudInWorld place(cloud, world.frame);
+  std::vector<Vec3> places = places_of(found.around, place);
+  std::vector<SightLine> lines = sight_lines_of(found.around, place);
   const std::int32_t first_facet = options.method == Method::rival && options.ground.is_on
-                                       ? add_ground(cloud, found.around, options, log, result)
+                                       ? add_ground(place, places, lines, options, log, result)
                                        : static_cast<std::int32_t>(world.surfaces.size());
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
-    const CloudInWorld place(cloud, world.frame);
-    std::vector<Opening> openings = find_openings(world, sight_lines_of(found.around, place));
+    std::vector<Opening> openings = find_openings(world, lines);
     std::vector<Vec3> viewpoints;
     for (const Vec3& v : found.around.viewpoints) viewpoints.push_back(place.to_world(v));
-    return flag_glass(world, std::move(openings), places_of(found.around, place), viewpoints,
+    return flag_glass(world, std::move(openings), places, viewpoints,
                       cloud.viewers.empty() ? std::vector<std::int32_t>{} : found.around.viewers);
   });
   add_curves(found.curves, world);
   NoiseMap noise = std::move(found.noise);
-  found = {};
+  found = {}, places = {}, lines = {};
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
                                               [&] { return pair_faces(world, options.thickness); });
   set_thickness(world, pairs);

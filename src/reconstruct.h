@@ -46,8 +46,8 @@ struct ReconstructOptions {
 struct ReconstructResult {
   World world;  // without provenance inputs, which only the caller knows
   Report report;
-  std::vector<std::int32_t> labels;  // for each point of the cloud the id of its surface, -1 = none
-                                     // or on a curve
+  std::vector<std::int32_t> labels;  // for each point of the cloud the id of its surface, -1 =
+                                     // none, on a curve or on a facet of ground
   std::vector<std::int32_t>
       curve_labels;  // for each point the id of its curve, -1 = none; empty where there are none
   std::optional<Replay> replay;  // where it was asked for

@@ -33,7 +33,10 @@ struct Raster {
     const auto at = find(p);
     return at && bits[*at];
   }
+  int column(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(width)); }
+  int row(std::size_t i) const { return static_cast<int>(i / static_cast<std::size_t>(width)); }
   Vec2 middle(int x, int y) const { return low + cell * Vec2(x + 0.5, y + 0.5); }
+  Vec2 middle(std::size_t i) const { return middle(column(i), row(i)); }
   Vec2 high() const { return low + cell * Vec2(width, height); }
 };
 

@@ -41,21 +41,31 @@ class FacetCutter {
     std::vector<Facet> facets = triangulated();
     constexpr int kRounds = 40;
     for (int round = 0; round < kRounds && refine(facets); ++round) facets = triangulated();
+    return cut_along(valid, facets);
+  }
+
+ private:
+  // What of the facets is in some polygons.
+  std::vector<Facet> cut_along(const std::vector<geos::Rings>& outlines,
+                               const std::vector<Facet>& facets) const {
+    std::vector<geos::Rings> whole;
+    for (const Facet& facet : facets) whole.push_back(facet.rings);
+    std::vector<std::vector<geos::Rings>> parts = geos::intersect(whole, outlines);
     std::vector<Facet> inside;
-    for (Facet& facet : facets)
-      for (geos::Rings& part : geos::intersect(facet.rings, valid)) {
-        inside.push_back(
-            {.rings = std::move(part), .slope = facet.slope, .base = facet.base, .cells = {}});
-        for (const std::size_t i : facet.cells)
-          if (is_inside(inside.back().rings, middle(i))) {
-            inside.back().cells.push_back(i);
-            inside.back().seen += seen_.bits[i] != 0;
-          }
+    for (std::size_t k = 0; k < facets.size(); ++k)
+      for (geos::Rings& rings : parts[k]) {
+        Facet part{.rings = std::move(rings),
+                   .slope = facets[k].slope,
+                   .base = facets[k].base,
+                   .cells = {}};
+        for (const std::size_t i : facets[k].cells)
+          if (is_inside(part.rings, wanted_.middle(i)))
+            part.cells.push_back(i), part.seen += seen_.bits[i] != 0;
+        inside.push_back(std::move(part));
       }
     return inside;
   }
 
- private:
   // A place near a cell, with what the cells around it lead to expect.
   void add(const Vec2& p) {
     const surface::Raster& raster = wanted_;
@@ -121,18 +131,13 @@ class FacetCutter {
       Vec2 at;
       for (const std::size_t i : facet.cells) {
         if (!seen_.bits[i]) continue;
-        const Vec2 p = middle(i);
+        const Vec2 p = wanted_.middle(i);
         const double off = std::abs(facet.height_at(p) - heights_.height[i]);
         if (off > worst) worst = off, at = p;
       }
       if (worst > error_) any |= height_at_.emplace(at, heights_.height[*wanted_.find(at)]).second;
     }
     return any;
-  }
-
-  Vec2 middle(std::size_t i) const {
-    const auto width = static_cast<std::size_t>(wanted_.width);
-    return wanted_.middle(static_cast<int>(i % width), static_cast<int>(i / width));
   }
 
   const Heights& heights_;

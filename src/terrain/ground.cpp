@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "../parallel.h"
-#include "../polygon.h"
 #include "../world/simplify.h"
-#include "../world/surface_rings.h"
 #include "../world/vertex_pool.h"
+#include "gaps.h"
 
 namespace scanworld::terrain {
 
@@ -17,81 +16,20 @@ namespace {
 
 using surface::Raster;
 
-// Of a world's axes, with heights along up.
-struct Level {
-  Vec3 up;
-  PlaneFrame frame;
-
-  explicit Level(const Vec3& axis) : up(axis), frame(frame_of({axis, 0})) {}
-  Spot spot(const Vec3& p) const { return {frame.to_plane(p), up.dot(p)}; }
-  Vec3 to_space(const Vec2& p, double height) const {
-    return frame.to_space(p) + (height - up.dot(frame.origin)) * up;
-  }
-};
-
-// A floor and the cells whose middles are in it.
-struct Floor {
-  std::size_t surface;  // index
-  std::vector<std::size_t> cells;
-  Plane plane;
-
-  double height_at(const Level& level, const Vec2& p) const {
-    const Vec3 at = level.to_space(p, 0);
-    return -plane.signed_distance(at) / plane.normal.dot(level.up);
-  }
-};
-
-Vec2 middle(const Raster& raster, std::size_t i) {
-  const auto width = static_cast<std::size_t>(raster.width);
-  return raster.middle(static_cast<int>(i % width), static_cast<int>(i / width));
-}
-
-// The surfaces of a world whose normals have a component along up in a range, the largest first.
-std::vector<Floor> flats_of(const World& world, const Level& level, const Raster& raster,
-                            double least, double most) {
-  std::vector<Floor> flats;
-  for (std::size_t s = 0; s < world.surfaces.size(); ++s) {
-    const Surface& surface = world.surfaces[s];
-    const double rise = surface.plane.normal.dot(level.up);
-    if (surface.curve || rise < least || rise > most) continue;
-    Floor flat{.surface = s, .cells = {}, .plane = surface.plane};
-    geos::Rings rings;
-    Eigen::AlignedBox2d box;
-    const auto add = [&](const Loop& loop) {
-      rings.emplace_back();
-      for (int v : loop) {
-        rings.back().push_back(level.frame.to_plane(world.vertices[static_cast<std::size_t>(v)]));
-        box.extend(rings.back().back());
-      }
-    };
-    add(surface.outer);
-    for (const Loop& hole : surface.holes) add(hole);
-    const Vec2 low = (box.min() - raster.low) / raster.cell,
-               high = (box.max() - raster.low) / raster.cell;
-    for (int y = std::max(0, static_cast<int>(low.y())); y <= high.y() && y < raster.height; ++y)
-      for (int x = std::max(0, static_cast<int>(low.x())); x <= high.x() && x < raster.width; ++x)
-        if (is_inside(rings, raster.middle(x, y))) flat.cells.push_back(raster.index(x, y));
-    if (!flat.cells.empty()) flats.push_back(std::move(flat));
-  }
-  std::stable_sort(flats.begin(), flats.end(),
-                   [](const Floor& a, const Floor& b) { return a.cells.size() > b.cells.size(); });
-  return flats;
-}
-
 // The ground of one storey: it grows from the largest floor, and from those that lie beside what is
 // found by then. Takes them from the list, and leaves those that are over or under it.
-Heights grow_storey(const SpotColumns& spots, const Level& level, std::vector<Floor>& floors,
+Heights grow_storey(const SpotColumns& spots, const Level& level, std::vector<Flat>& floors,
                     const HeightOptions& options) {
   constexpr double kApart = 1;  // [m] between a floor and one under it
   Heights heights = spots.none();
   for (bool is_first = true;; is_first = false) {
     bool any = false;
-    std::vector<Floor> left;
+    std::vector<Flat> left;
     Raster taken = heights.known;  // also by the floors of this round
-    for (Floor& floor : floors) {
+    for (Flat& floor : floors) {
       std::size_t known = 0, apart = 0;
       for (const std::size_t i : floor.cells) {
-        const double height = floor.height_at(level, middle(taken, i));
+        const double height = floor.height_at(level, taken.middle(i));
         known += taken.bits[i];
         apart += heights.known.bits[i] && std::abs(heights.height[i] - height) > kApart;
       }
@@ -103,7 +41,7 @@ Heights grow_storey(const SpotColumns& spots, const Level& level, std::vector<Fl
       for (const std::size_t i : floor.cells) {
         if (taken.bits[i]) continue;
         taken.bits[i] = 1;
-        const double expected = floor.height_at(level, middle(taken, i));
+        const double expected = floor.height_at(level, taken.middle(i));
         if (const auto height = spots.near(i, expected, 1.5 * options.tolerance)) {
           heights.known.bits[i] = 1, heights.height[i] = *height;
           any = true;
@@ -114,85 +52,6 @@ Heights grow_storey(const SpotColumns& spots, const Level& level, std::vector<Fl
     if (!any) return heights;
     heights = grow_ground(spots, std::move(heights), options);
   }
-}
-
-// Where one looks down through the ground that is asked about.
-Raster seen_through(const Heights& filled, const Level& level, const std::vector<SightLine>& lines,
-                    double margin) {
-  const Raster& raster = filled.known;
-  constexpr int kLines = 5;  // fewer are strays
-  std::vector<int> lines_through(raster.bits.size());
-  for (const SightLine& line : lines) {
-    const Spot to = level.spot(line.to), from = level.spot(line.from);
-    const auto end = raster.find(to.at);
-    if (!end || !raster.bits[*end] || to.height > filled.height[*end] - margin) continue;
-    const double length = (from.at - to.at).norm();
-    const int steps = static_cast<int>(length / raster.cell) + 1;
-    for (int k = 0; k <= steps; ++k) {
-      const double t = k / static_cast<double>(steps);
-      const auto at = raster.find(to.at + t * (from.at - to.at));
-      if (!at || !raster.bits[*at] ||
-          to.height + t * (from.height - to.height) > filled.height[*at])
-        break;
-      ++lines_through[*at];
-    }
-  }
-  Raster open = surface::empty_like(raster);
-  for (std::size_t i = 0; i < open.bits.size(); ++i) open.bits[i] = lines_through[i] >= kLines;
-  return open;
-}
-
-// Sets the heights of the cells that are set beyond those that are known, as those lead to expect;
-// what nothing can be said of is not set.
-Heights filled(const Heights& heights, const Raster& wanted, int reach) {
-  Heights all = heights;
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < wanted.bits.size(); ++i)
-    if (wanted.bits[i] && !heights.known.bits[i]) missing.push_back(i);
-  constexpr std::size_t kPart = 64;
-  constexpr double kMaxStep = 0.3;  // [m] ground that rises by more in a gap is not one
-  parallel_for(part_count(missing.size(), kPart), [&](std::size_t part) {
-    const auto [begin, end] = part_of(part, missing.size(), kPart);
-    const auto width = static_cast<std::size_t>(wanted.width);
-    for (std::size_t n = begin; n < end; ++n) {
-      const std::size_t i = missing[n];
-      for (int r = 2; r <= 2 * reach; r *= 2) {
-        const auto expected =
-            heights.expected(static_cast<int>(i % width), static_cast<int>(i / width), r);
-        if (!expected) continue;
-        if (expected->spread <= kMaxStep) all.known.bits[i] = 1, all.height[i] = expected->height;
-        break;
-      }
-    }
-  });
-  return all;
-}
-
-// Of the set cells those in connected pieces with so many that count, and such a share of them.
-Raster large_pieces(const Raster& wanted, const Raster& counts, std::size_t least,
-                    double least_share) {
-  Raster large = surface::empty_like(wanted), left = wanted;
-  std::vector<std::size_t> piece;
-  const auto width = static_cast<std::size_t>(wanted.width);
-  for (std::size_t start = 0; start < left.bits.size(); ++start) {
-    if (!left.bits[start]) continue;
-    piece = {start};
-    left.bits[start] = 0;
-    std::size_t count = 0;
-    for (std::size_t n = 0; n < piece.size(); ++n) {
-      count += counts.bits[piece[n]];
-      const int x = static_cast<int>(piece[n] % width), y = static_cast<int>(piece[n] / width);
-      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-        if (left.is_set(x + dx, y + dy)) {
-          piece.push_back(left.index(x + dx, y + dy));
-          left.bits[piece.back()] = 0;
-        }
-    }
-    if (count >= least &&
-        static_cast<double>(count) >= least_share * static_cast<double>(piece.size()))
-      for (const std::size_t i : piece) large.bits[i] = 1;
-  }
-  return large;
 }
 
 class GroundFinder {
@@ -218,8 +77,8 @@ class GroundFinder {
     constexpr double kWalkable = 0.9, kCeiling = -0.5;  // cosines
     flats_ = flats_of(world_, level_, ground_.cells, kWalkable, 1);
     ceilings_ = flats_of(world_, level_, ground_.cells, -1, kCeiling);
-    std::vector<Floor> floors;
-    for (const Floor& flat : flats_)
+    std::vector<Flat> floors;
+    for (const Flat& flat : flats_)
       if (world_.surfaces[flat.surface].kind == Kind::floor &&
           flat.cells.size() >= cells_of(options_.min_floor))
         floors.push_back(flat);
@@ -243,13 +102,13 @@ class GroundFinder {
 
   // The share of a floor's cells where the ground is known that are off it by more than the
   // tolerance; 2 where it is none of this ground: where none is known, or most is far off.
-  double share_off(const Floor& floor, const Heights& seen) const {
+  double share_off(const Flat& floor, const Heights& seen) const {
     constexpr double kNear = 0.15;  // [m]
     std::size_t count = 0, off = 0, far = 0;
     for (const std::size_t i : floor.cells) {
       if (!seen.known.bits[i]) continue;
       const double distance =
-          std::abs(seen.height[i] - floor.height_at(level_, middle(seen.known, i)));
+          std::abs(seen.height[i] - floor.height_at(level_, seen.known.middle(i)));
       ++count, off += distance > tolerance_, far += distance > kNear;
     }
     return count == 0 || 2 * far > count ? 2
@@ -268,19 +127,20 @@ class GroundFinder {
     for (std::size_t i = 0; i < open.bits.size(); ++i)
       if (open.bits[i] && !known.bits[i]) ground.known.bits[i] = 0;
 
-    std::vector<const Floor*> unfit;
+    std::vector<const Flat*> fit, unfit;
     Raster covered = surface::empty_like(known);
     std::vector<double> floor_height(known.bits.size(), -1e300);
-    for (const Floor& floor : flats_) {
+    for (const Flat& floor : flats_) {
       const double off = share_off(floor, seen);
       if (off > 1) continue;
       if (off > options_.max_off) {
         unfit.push_back(&floor);
         continue;
       }
+      fit.push_back(&floor);
       for (const std::size_t i : floor.cells) {
         covered.bits[i] = 1;
-        floor_height[i] = std::max(floor_height[i], floor.height_at(level_, middle(known, i)));
+        floor_height[i] = std::max(floor_height[i], floor.height_at(level_, known.middle(i)));
       }
     }
     ground = ground.smoothed(3, 2 * tolerance_);
@@ -290,19 +150,19 @@ class GroundFinder {
     Raster counts = known;
     const Raster beside = surface::grow(covered, margin);
     for (std::size_t i = 0; i < counts.bits.size(); ++i) counts.bits[i] &= !beside.bits[i];
-    for (const Floor& ceiling : ceilings_)
+    for (const Flat& ceiling : ceilings_)
       for (const std::size_t i : ceiling.cells)
-        if (ceiling.height_at(level_, middle(known, i)) > ground.height[i] + kRoom)
+        if (ceiling.height_at(level_, known.middle(i)) > ground.height[i] + kRoom)
           counts.bits[i] = 0;
     wanted = large_pieces(wanted, counts, cells_of(options_.min_area), options_.min_seen);
 
-    for (const Floor* floor : unfit) {
+    for (const Flat* floor : unfit) {
       std::size_t all = 0, taken = 0;
       for (const std::size_t i : floor->cells)
         all += known.bits[i], taken += known.bits[i] && wanted.bits[i];
       if (2 * taken > all) dropped_[floor->surface] = 1;
     }
-    note_parts(wanted, seen);
+    note_parts(wanted, fit);
     // A little goes on under the floors around; where it is over them, down to them.
     const Heights own{.known = wanted, .height = ground.height};
     const Heights under = filled(own, surface::grow(wanted, margin), margin + 2);
@@ -314,24 +174,24 @@ class GroundFinder {
     return {std::move(ground), std::move(wanted)};
   }
 
-  bool is_level(const Floor& floor) const {
+  bool is_level(const Flat& floor) const {
     double low = 1e300, high = -1e300;
     for (const std::size_t i : floor.cells) {
-      const double height = floor.height_at(level_, middle(ground_.cells, i));
+      const double height = floor.height_at(level_, ground_.cells.middle(i));
       low = std::min(low, height), high = std::max(high, height);
     }
     return high - low <= tolerance_;
   }
 
   // Floors that stay, are not level and lie beside the cells of ground are parts of it.
-  void note_parts(const Raster& wanted, const Heights& seen) {
+  void note_parts(const Raster& wanted, const std::vector<const Flat*>& floors) {
     const Raster beside = surface::grow(wanted, 1);
-    for (const Floor& floor : flats_) {
-      const bool is_beside = std::any_of(floor.cells.begin(), floor.cells.end(),
+    for (const Flat* floor : floors) {
+      const bool is_beside = std::any_of(floor->cells.begin(), floor->cells.end(),
                                          [&](std::size_t i) { return beside.bits[i] != 0; });
-      if (is_beside && !is_level(floor) && share_off(floor, seen) <= options_.max_off)
-        world_.surfaces[floor.surface].ground = true,
-        world_.surfaces[floor.surface].kind = Kind::floor;
+      if (!is_beside || is_level(*floor)) continue;
+      Surface& surface = world_.surfaces[floor->surface];
+      surface.ground = true, surface.kind = Kind::floor;
     }
   }
 
@@ -386,8 +246,8 @@ class GroundFinder {
   HeightOptions heights_;
   const Level level_;
   std::vector<Spot> spots_;
-  std::vector<Floor> flats_;  // all that can be walked on, the largest first
-  std::vector<Floor> ceilings_;
+  std::vector<Flat> flats_;  // all that can be walked on, the largest first
+  std::vector<Flat> ceilings_;
   std::vector<std::uint8_t> dropped_;  // surfaces
   std::vector<std::vector<Facet>> cut_;
   Ground ground_;

@@ -109,15 +109,13 @@ Heights grow_ground(const SpotColumns& spots, Heights heights, const HeightOptio
     while (!fresh.empty()) {
       ++round;
       std::vector<std::size_t> candidates;
-      const auto width = static_cast<std::size_t>(known.width);
       for (const std::size_t i : fresh)
-        visit_around(known, static_cast<int>(i % width), static_cast<int>(i / width), reach,
-                     [&](int x, int y) {
-                       const std::size_t k = known.index(x, y);
-                       if (known.bits[k] || seen_in[k] == round || spots.is_empty(k)) return;
-                       seen_in[k] = round;
-                       candidates.push_back(k);
-                     });
+        visit_around(known, known.column(i), known.row(i), reach, [&](int x, int y) {
+          const std::size_t k = known.index(x, y);
+          if (known.bits[k] || seen_in[k] == round || spots.is_empty(k)) return;
+          seen_in[k] = round;
+          candidates.push_back(k);
+        });
       std::vector<std::optional<double>> found(candidates.size());
       constexpr std::size_t kPart = 64;
       parallel_for(part_count(candidates.size(), kPart), [&](std::size_t part) {
@@ -125,8 +123,7 @@ Heights grow_ground(const SpotColumns& spots, Heights heights, const HeightOptio
         for (std::size_t n = begin; n < end; ++n) {
           const std::size_t k = candidates[n];
           // A plane wants more than what is next.
-          const auto expected =
-              heights.expected(static_cast<int>(k % width), static_cast<int>(k / width), reach + 2);
+          const auto expected = heights.expected(known.column(k), known.row(k), reach + 2);
           if (expected)
             found[n] =
                 spots.near(k, expected->height,

@@ -56,7 +56,6 @@ class SpotColumns {
 
   // Cells, none known.
   const Heights& none() const { return none_; }
-  double cell() const { return none_.known.cell; }
   bool is_empty(std::size_t cell) const { return first_[cell] == first_[cell + 1]; }
   // The mean height of the spots in a cell no farther than this from a height; nothing where there
   // are none.

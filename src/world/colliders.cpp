@@ -38,8 +38,7 @@ std::vector<Collider> make_colliders(const World& world, const ColliderOptions& 
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return faces[a].area > faces[b].area; });
   for (std::size_t i : order) {
-    const Surface& s = *faces[i].surface;
-    if (faces[i].area <= 0 || s.kind == Kind::floor || s.ground) continue;
+    if (faces[i].area <= 0 || faces[i].surface->kind == Kind::floor) continue;
     made.add(slabs_of(faces, depths, i, made, clearance, options.slabs));
   }
 

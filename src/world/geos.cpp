@@ -234,18 +234,24 @@ std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& othe
   return result;
 }
 
-std::vector<Rings> intersect(const Rings& polygon, const std::vector<Rings>& others) {
+std::vector<std::vector<Rings>> intersect(const std::vector<Rings>& polygons,
+                                          const std::vector<Rings>& others) {
   const Context context;
-  const Geometry own = polygon_of(context, polygon);
-  std::vector<Rings> result;
-  for (const Rings& rings : others) {
-    const Geometry other = polygon_of(context, rings);
-    if (!own || !other) continue;
-    const Geometry common(GEOSIntersection_r(context.handle, own.get(), other.get()),
-                          Free{context.handle});
-    collect(context, common.get(), result);
+  std::vector<Geometry> all;
+  for (const Rings& rings : others)
+    if (Geometry other = polygon_of(context, rings)) all.push_back(std::move(other));
+  std::vector<std::vector<Rings>> parts;
+  for (const Rings& rings : polygons) {
+    parts.emplace_back();
+    const Geometry own = polygon_of(context, rings);
+    if (!own) continue;
+    for (const Geometry& other : all) {
+      const Geometry common(GEOSIntersection_r(context.handle, own.get(), other.get()),
+                            Free{context.handle});
+      collect(context, common.get(), parts.back());
+    }
   }
-  return result;
+  return parts;
 }
 
 Triangles delaunay(const std::vector<Vec2>& places) {

@@ -50,8 +50,9 @@ std::vector<Rings> unite(const std::vector<Rings>& polygons);
 std::vector<Rings> subtract(const Rings& polygon, const std::vector<Rings>& others,
                             double min_width);
 
-// What a valid polygon has in common with others that do not overlap.
-std::vector<Rings> intersect(const Rings& polygon, const std::vector<Rings>& others);
+// What each of some valid polygons has in common with others that do not overlap.
+std::vector<std::vector<Rings>> intersect(const std::vector<Rings>& polygons,
+                                          const std::vector<Rings>& others);
 
 // The Delaunay triangulation of places, each counter-clockwise; nothing where there are no three.
 std::vector<std::array<Vec2, 3>> delaunay(const std::vector<Vec2>& places);

@@ -36,7 +36,7 @@ struct Surface {
   std::optional<Color> color;
   std::optional<int> curve;                 // id of what it is a facet of
   std::vector<InferredPart> inferred = {};  // where a measured one was not
-  bool ground = false;                      // a facet of ground that no plane fits
+  bool ground = false;                      // a floor that is part of ground that no plane fits
   bool operator==(const Surface&) const = default;
 };
 
