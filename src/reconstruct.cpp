@@ -312,11 +312,9 @@ std::int32_t add_ground(const CloudInWorld& cloud, const std::vector<Vec3>& plac
 }
 
 // Adds the solids of what no surface explains.
-void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ReconstructOptions& asked,
+void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ObstacleOptions& options,
                      StageLog& log, ReconstructResult& result) {
-  const ClutterScale scale{result.report.noise, result.report.spacing, asked.floor_tolerance,
-                           std::move(noise)};
-  const ObstacleOptions& options = asked.obstacles;
+  const ClutterScale scale{result.report.noise, result.report.spacing, std::move(noise)};
   Obstacles obstacles = log.run("Enclosing clutter", "points -> obstacles", cloud, [&] {
     std::vector<std::int32_t> explained = result.labels;
     for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
@@ -387,7 +385,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival)
-    enclose_clutter(cloud, std::move(noise), options, log, result);
+    enclose_clutter(cloud, std::move(noise), options.obstacles, log, result);
   // A label names a plane; curves and ground have many.
   for (std::size_t i = 0; i < result.curve_labels.size(); ++i)
     if (result.curve_labels[i] >= 0) result.labels[i] = -1;

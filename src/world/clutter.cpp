@@ -16,7 +16,6 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kWalkable = 0.9;   // cosine of the slope of what can be walked on, at least
 constexpr double kReach = 1 << 19;  // [cells] points farther from the origin are not looked at
 
 // A point by its cube: a cell's number, 20 bits an axis, then that of its eighth.
@@ -145,8 +144,6 @@ std::vector<FlatSurface> flatten(const World& world, const ClutterScale& scale,
                   .rings = rings_of(world, s),
                   .reach = options.surface_distance * std::max(scale.noise, s.support.rms),
                   .box = {}};
-    if (s.plane.normal.dot(world.frame.up) > kWalkable)
-      f.reach = std::max(f.reach, scale.floor_tolerance + f.reach / 2);
     for (int v : s.outer) f.box.extend(world.vertices[static_cast<std::size_t>(v)]);
     flat.push_back(std::move(f));
   }

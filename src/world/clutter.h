@@ -12,10 +12,9 @@ namespace scanworld {
 
 // The lengths of a scan that clutter is looked at in [m].
 struct ClutterScale {
-  double noise = 0.01;         // standard deviation of the points off their surface
-  double spacing = 0.02;       // between neighbouring points on a surface
-  double floor_tolerance = 0;  // what is no farther from a floor is that floor
-  NoiseMap local = {};         // where there is more noise
+  double noise = 0.01;    // standard deviation of the points off their surface
+  double spacing = 0.02;  // between neighbouring points on a surface
+  NoiseMap local = {};    // where there is more noise
 };
 
 struct ClutterOptions {
