@@ -198,6 +198,13 @@ TEST_CASE("ground is the same for any order of places and number of threads") {
   CHECK(text_of() == text);
 }
 
+TEST_CASE("a stray far away changes nothing") {
+  std::vector<Vec3> places = hill_places(0, 15);
+  const std::string text = world_text(find(floor_to(5), places).world);
+  places.insert(places.end(), {{1e6, 2, 0}, {-4, 3, -9e5}, {1e9, 1e9, 1e9}});
+  CHECK(world_text(find(floor_to(5), places).world) == text);
+}
+
 TEST_CASE("nothing, and a single place, are no ground") {
   CHECK(find(floor_to(5), {}).facets == 0);
   CHECK(find(World{}, {{1, 2, 3}}).facets == 0);

@@ -65,7 +65,10 @@ class GroundFinder {
         heights_(options.heights),
         level_(world.frame.up),
         dropped_(world.surfaces.size()) {
-    for (const Vec3& p : places) spots_.push_back(level_.spot(p));
+    constexpr double kBeyond = 30;  // [m] of all surfaces, places are strays
+    const Box3 near = grown(bounds(world), kBeyond);
+    for (const Vec3& p : places)
+      if (near.contains(p)) spots_.push_back(level_.spot(p));
     heights_.tolerance = tolerance_;
     heights_.cell = std::max(heights_.cell, heights_.per_spacing * scale.spacing);
     heights_.reach = std::max(heights_.reach, 2 * heights_.cell);

@@ -67,10 +67,10 @@ SpotColumns::SpotColumns(const std::vector<Spot>& spots, const HeightOptions& op
   Eigen::AlignedBox2d box;
   for (const Spot& s : spots) box.extend(s.at);
   if (box.isEmpty()) box.extend(Vec2(0, 0));
-  const Vec2 size = box.sizes();
-  const double cell =
-      std::max(options.cell, std::sqrt(size.x() * size.y() / std::max(1.0, options.max_cells)));
-  none_.known = surface::raster_around(box, 2 * options.reach, cell);
+  const double margin = 2 * options.reach;
+  const double area = (box.sizes().array() + 2 * margin).prod();
+  const double cell = std::max(options.cell, std::sqrt(area / std::max(1.0, options.max_cells)));
+  none_.known = surface::raster_around(box, margin, cell);
   none_.height.assign(none_.known.bits.size(), 0);
   first_.assign(none_.known.bits.size() + 1, 0);
   std::vector<std::uint32_t> cell_of;
