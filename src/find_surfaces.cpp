@@ -125,7 +125,7 @@ class SurfaceFinder {
     if (space_options_.is_on)
       outlook = log_.run("Looking around", "patches -> rays", patches_, [&] {
         return space::look_out(patches_, *rays_, seams, around_, in_.voxel, result_.report.noise,
-                               space_options_);
+                               space_options_, up_);
       });
     patches_ = log_.run("Weighing gaps", "patches -> patches", patches_, [&] {
       around_.viewers = find_sole_viewers(around_, *rays_, viewpoints_, options_.gaps.through);

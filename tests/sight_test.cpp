@@ -10,10 +10,11 @@ using namespace scanworld::test;
 namespace {
 
 // Also where no viewpoint is known.
-space::Sight sight_of(const LabelledScan& scan, const space::SightOptions& options = {}) {
+space::Sight sight_of(const LabelledScan& scan, const space::SightOptions& options = {},
+                      const Vec3& up = Vec3::UnitZ()) {
   surface::Surroundings around = surface::surroundings_of(scan.cloud.points, scan.labels);
   around.viewpoints = scan.cloud.viewpoints;
-  return {around, scan.cloud.viewers, 0.02, options};
+  return {around, scan.cloud.viewers, 0.02, options, up};
 }
 
 // Places of the floor every 10 cm, a cell off the walls.
@@ -97,10 +98,21 @@ TEST_CASE("where no viewpoint is known, what stands close before a plane hides i
   LabelledScan scan = seen_from(table_room_sides(), {kScanner});
   scan.cloud.viewpoints.clear(), scan.cloud.viewers.assign(scan.cloud.points.size(), -1);
   for (const double ahead : {0.4, 0.9}) {
-    const space::Sight sight = sight_of(scan, {.look_ahead = ahead});
+    const space::Sight sight = sight_of(scan, {.look_ahead = ahead}, Vec3::UnitX());
     CHECK(sight.is_exposed({2.6, 1.4, 0}, Vec3::UnitZ()) == (ahead < kTableTop.min().z()));
     CHECK(sight.is_exposed({1, 0.5, 0}, Vec3::UnitZ()));
   }
+}
+
+TEST_CASE("where no viewpoint is known, a floor is none only where something is below") {
+  LabelledScan scan;
+  scan.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  scan.add({2, 0, -2}, {1, 0, 0}, {0, 1, 0});
+  const space::Sight sight = sight_of(scan);
+  CHECK_FALSE(sight.is_exposed({1.5, 0.5, 0}, Vec3::UnitZ()));
+  CHECK(sight.is_exposed({2.5, 0.5, 0}, Vec3::UnitZ()));
+  CHECK(sight.is_exposed({1.5, 0.5, 0}, Vec3::UnitX()));  // a wall
+  CHECK_FALSE(sight_of(scan, {.look_below = 1}).is_exposed({2.5, 0.5, 0}, Vec3::UnitZ()));
 }
 
 TEST_CASE("points of planes fill their cells, single flying ones fill none") {

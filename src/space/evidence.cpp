@@ -15,7 +15,6 @@ namespace {
 constexpr int kMostPlaces = 4000;     // that a facet is looked at
 constexpr double kMostExtended = 10;  // the highest weight of what is extended
 constexpr double kGrowth = 3;         // of that weight, for each size of what has points
-constexpr double kLevelCosine = 0.9;  // of a floor's normal to up
 constexpr double kGrain = 1e-6;       // [m2] rays are summed in whole ones: in any order the same
 
 std::uint64_t key_of(int from, int to) {
@@ -96,7 +95,9 @@ FacetEvidence ask(const CellComplex& cells, const CellFacet& facet,
   double empty = 0, extended = 0;
   const auto look = [&](const Vec2& p) {
     ++count;
-    double least_empty = 1, least_extended = kMostExtended;
+    // Of planes that do not go on so far none says whether points should be there.
+    std::optional<double> least_empty;
+    double least_extended = kMostExtended;
     bool is_met = false;
     for (const Speaker& s : speakers) {
       const Vec2 q = &s == &speakers[0] ? p : s.cover->frame.to_plane(first.frame.to_space(p));
@@ -105,11 +106,13 @@ FacetEvidence ask(const CellComplex& cells, const CellFacet& facet,
         supported[s.is_flipped] += 1, is_met = true;
         continue;
       }
-      least_empty = std::min(least_empty, at ? static_cast<double>(s.cover->empty[*at]) : 0.0);
+      if (at && s.cover->distance[*at] <= s.cover->reach)
+        least_empty = std::min(least_empty.value_or(1), static_cast<double>(s.cover->empty[*at]));
       least_extended = std::min(least_extended, extension_at(*s.cover, q));
     }
     if (is_met) return;
-    empty += least_empty, extended += (1 - least_empty) * least_extended;
+    empty += least_empty.value_or(0);
+    extended += (1 - least_empty.value_or(0)) * least_extended;
   };
   visit_places(polygon, first.supported.low, step, look);
   if (count == 0) {

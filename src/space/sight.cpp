@@ -24,9 +24,10 @@ constexpr double kClear = 1.2;
 }  // namespace
 
 Sight::Sight(const surface::Surroundings& around, const std::vector<std::int32_t>& viewers,
-             double spacing, const SightOptions& options)
+             double spacing, const SightOptions& options, const Vec3& up)
     : viewpoints_(around.viewpoints),
       options_(options),
+      up_(up),
       cell_(std::max(options.cell, options.sites * spacing)) {
   std::unordered_map<std::uint64_t, int> loose;
   for (std::size_t i = 0; i < around.points.size(); ++i) {
@@ -92,8 +93,18 @@ bool Sight::is_hidden(const Vec3& place, const Vec3& normal, const Vec3& to) con
   return hidden;
 }
 
+// Under a scanner nobody knows of, the floor has no points either; in a stairwell something is
+// seen below.
+bool Sight::has_below(const Vec3& place) const {
+  for (double depth = 2 * cell_; depth < options_.look_below; depth += cell_)
+    if (is_occupied(place - depth * up_)) return true;
+  return false;
+}
+
 bool Sight::is_exposed(const Vec3& place, const Vec3& normal) const {
-  if (viewpoints_.empty()) return !is_hidden(place, normal, place + options_.look_ahead * normal);
+  if (viewpoints_.empty())
+    return !is_hidden(place, normal, place + options_.look_ahead * normal) &&
+           (normal.dot(up_) < kLevelCosine || has_below(place));
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t v = 0; v < viewpoints_.size(); ++v)
     if (!seen_[v].empty() && normal.dot(viewpoints_[v] - place) > 0)

@@ -45,9 +45,9 @@ Box3 box_of(const std::vector<surface::Patch>& patches, const std::vector<Vec3>&
 
 Outlook look_out(const std::vector<surface::Patch>& patches, const surface::PatchRays& rays,
                  const std::vector<surface::Seam>& seams, const surface::Surroundings& around,
-                 double spacing, double noise, const SpaceOptions& options) {
+                 double spacing, double noise, const SpaceOptions& options, const Vec3& up) {
   const std::vector<std::int32_t> viewers = find_nearest_viewers(around, rays);
-  Outlook result{.sight = Sight(around, viewers, spacing, options.cover.sight)};
+  Outlook result{.sight = Sight(around, viewers, spacing, options.cover.sight, up)};
   result.covers = find_covers(patches, seams, result.sight, options.cover);
   result.rays = find_rays(around, viewers, result.covers, rays, noise, options.rays);
   result.free = crossed_by(result.rays, result.sight.cell());

@@ -36,7 +36,8 @@ inline std::size_t count_of(const Outlook& outlook) { return outlook.rays.size()
 // `patches`: with what their own points say; `rays`: of these; `spacing`: of the places around [m].
 Outlook look_out(const std::vector<surface::Patch>& patches, const surface::PatchRays& rays,
                  const std::vector<surface::Seam>& seams, const surface::Surroundings& around,
-                 double spacing, double noise, const SpaceOptions& options = {});
+                 double spacing, double noise, const SpaceOptions& options = {},
+                 const Vec3& up = Vec3::UnitZ());
 
 struct LabelledSpace {
   std::vector<SpacePlane> planes;

@@ -21,6 +21,8 @@ OptionList list_options(SpaceOptions& o) {
        "of a line of sight to a normal; what is seen more aslant is unsure", 0, 1},
       {"space.sight.look_ahead", &o.cover.sight.look_ahead, "m",
        "where no viewpoint is known: what stands so near before a plane hides it", 0},
+      {"space.sight.look_below", &o.cover.sight.look_below, "m",
+       "where no viewpoint is known: a floor is none only if something is so near below", 0},
       {"space.rays.site", &o.rays.site, "m", "one line of sight for the points of so large a cube",
        0.02},
       {"space.rays.before", &o.rays.before, "m", "a line of sight ends so far before what was seen",
