@@ -370,10 +370,11 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                                        ? add_ground(place, places, lines, options, log, result)
                                        : static_cast<std::int32_t>(world.surfaces.size());
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
-    std::vector<Opening> openings = find_openings(world, lines);
+    FoundOpenings openings = find_openings(world, {lines, places});
+    world.vertices.insert(world.vertices.end(), openings.corners.begin(), openings.corners.end());
     std::vector<Vec3> viewpoints;
     for (const Vec3& v : found.around.viewpoints) viewpoints.push_back(place.to_world(v));
-    return flag_glass(world, std::move(openings), places, viewpoints,
+    return flag_glass(world, std::move(openings.openings), places, viewpoints,
                       cloud.viewers.empty() ? std::vector<std::int32_t>{} : found.around.viewers);
   });
   add_curves(found.curves, world);

@@ -47,24 +47,32 @@ void add_back(World& world) {
   world.surfaces.push_back(back);
 }
 
+// The only opening that is no window.
+Opening door_of(const World& world) {
+  std::vector<Opening> found = find_openings(world).openings;
+  std::erase_if(found, [](const Opening& o) { return o.kind == OpeningKind::window; });
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].kind == OpeningKind::door);
+  return found[0];
+}
+
 }  // namespace
 
 TEST_CASE("a notch that ends a little over the floor on one side is a door still") {
   for (const std::size_t foot : {1u, 4u}) {
     World world = wall_with_door_and_window();
     world.vertices[foot].z() = 0.12;
-    const std::vector<Opening> openings = find_openings(world);
-    REQUIRE(openings.size() == 2);
-    CHECK(openings[1].kind == OpeningKind::door);
-    CHECK(openings[1].width == doctest::Approx(0.9));
-    CHECK(openings[1].height == doctest::Approx(2.05 - 0.12));
+    const Opening door = door_of(world);
+    CHECK(door.width == doctest::Approx(0.9));
+    CHECK(door.height == doctest::Approx(2.05));
   }
 }
 
 TEST_CASE("a notch at the bottom is a door, a hole above is a window, of their clear sizes") {
-  const std::vector<Opening> openings = find_openings(wall_with_door_and_window());
-  REQUIRE(openings.size() == 2);
-  const Opening &window = openings[0], &door = openings[1];
+  const World world = wall_with_door_and_window();
+  const FoundOpenings found = find_openings(world);
+  REQUIRE(found.openings.size() == 2);
+  const Opening &door = found.openings[0], &window = found.openings[1];
   CHECK(window.kind == OpeningKind::window);
   CHECK(window.width == doctest::Approx(1.2));
   CHECK(window.height == doctest::Approx(1.2));
@@ -73,6 +81,7 @@ TEST_CASE("a notch at the bottom is a door, a hole above is a window, of their c
   CHECK(door.height == doctest::Approx(2.05));
   CHECK(door.surface == 7);
   CHECK(door.loop.size() == 4);
+  CHECK(found.corners.empty());  // all are the wall's
 }
 
 TEST_CASE("an opening in both faces is told once, as wide as the narrower face leaves it") {
@@ -83,18 +92,57 @@ TEST_CASE("an opening in both faces is told once, as wide as the narrower face l
     Vec3& p = world.vertices[static_cast<std::size_t>(v)];
     if (p.x() == 1) p.x() = 1.05;
   }
-  const std::vector<Opening> openings = find_openings(world);
-  REQUIRE(openings.size() == 2);
-  CHECK(openings[1].width == doctest::Approx(0.85));
-  CHECK(openings[1].evidence.find("both faces") != std::string::npos);
+  CHECK(find_openings(world).openings.size() == 2);
+  const Opening door = door_of(world);
+  CHECK(door.width == doctest::Approx(0.85));
+  CHECK(door.evidence.find("both faces") != std::string::npos);
+}
+
+TEST_CASE("the sides within a wall tell a door's width, not where its face ends at a casing") {
+  World world = wall_with_door_and_window();
+  for (const double x : {1.07, 1.83}) {
+    Surface jamb{.id = world.surfaces.back().id + 1,
+                 .kind = Kind::wall,
+                 .plane = plane_through({x, 0, 0}, x < 1.5 ? Vec3(1, 0, 0) : Vec3(-1, 0, 0))};
+    for (const auto& [y, z] : {std::pair{-0.015, 0.0}, {0.1, 0.0}, {0.1, 2.05}, {-0.015, 2.05}}) {
+      jamb.outer.push_back(static_cast<int>(world.vertices.size()));
+      world.vertices.emplace_back(x, y, z);
+    }
+    world.surfaces.push_back(jamb);
+  }
+  const Opening door = door_of(world);
+  CHECK(door.width == doctest::Approx(0.76));
+  CHECK(door.height == doctest::Approx(2.05));
+  CHECK(find_openings(world).corners.size() == 4);
+}
+
+TEST_CASE("a wall in pieces around a doorway has one still") {
+  World world;
+  const auto add = [&](double x0, double x1, double z0, double z1) {
+    Surface piece{.id = static_cast<int>(world.surfaces.size()),
+                  .kind = Kind::wall,
+                  .plane = {-Vec3::UnitY(), 0}};
+    for (const auto& [x, z] : {std::pair{x0, z0}, {x1, z0}, {x1, z1}, {x0, z1}}) {
+      piece.outer.push_back(static_cast<int>(world.vertices.size()));
+      world.vertices.emplace_back(x, 0, z);
+    }
+    world.surfaces.push_back(piece);
+  };
+  add(0, 2, 0, 2.7), add(2.9, 5, 0, 2.7);
+  CHECK(find_openings(world).openings.empty());  // up to the ceiling: two walls
+  add(2, 2.9, 2.1, 2.7);
+  const Opening door = door_of(world);
+  CHECK(door.width == doctest::Approx(0.9));
+  CHECK(door.height == doctest::Approx(2.1));
 }
 
 TEST_CASE("large ones are passages; low, slanting and small ones are no openings") {
   const Eigen::AlignedBox2d window(Vec2(4.5, 0.9), Vec2(5.7, 2.1));
   const auto kind_of_notch = [&](double width, double height) -> std::optional<OpeningKind> {
-    const auto openings = find_openings(wall_with({Vec2(1, 0), Vec2(1 + width, height)}, window));
-    if (openings.size() < 2) return std::nullopt;
-    return openings[1].kind;
+    const World world = wall_with({Vec2(1, 0), Vec2(1 + width, height)}, window);
+    for (const Opening& o : find_openings(world).openings)
+      if (o.kind != OpeningKind::window) return o.kind;
+    return std::nullopt;
   };
   CHECK(kind_of_notch(0.9, 2.05) == OpeningKind::door);
   CHECK(kind_of_notch(2.5, 2.2) == OpeningKind::passage);
@@ -103,26 +151,45 @@ TEST_CASE("large ones are passages; low, slanting and small ones are no openings
   CHECK_FALSE(kind_of_notch(0.2, 2.05).has_value());
   World slanting = wall_with_door_and_window();
   slanting.vertices[2].x() += 0.8;  // the notch is a triangle now
-  CHECK(find_openings(slanting).size() == 1);
+  CHECK(find_openings(slanting).openings.size() == 1);
 }
 
-TEST_CASE("lines of sight are counted where they go through, not where they end before") {
+TEST_CASE("an opening needs lines of sight through it, as dense as places are on the wall") {
   const World world = wall_with_door_and_window();
-  const std::vector<SightLine> lines = {{{1.5, -2, 1}, {1.5, 2, 1}},     // through the door
-                                        {{1.5, -2, 1}, {1.5, -0.5, 1}},  // ends before it
-                                        {{2.5, -2, 1}, {2.5, 2, 1}}};    // through the wall
-  const std::vector<Opening> openings = find_openings(world, lines);
-  REQUIRE(openings.size() == 2);
-  CHECK(openings[0].evidence.find("no line of sight") != std::string::npos);
-  CHECK(openings[1].evidence.find("1 lines of sight") != std::string::npos);
+  std::vector<SightLine> lines = {{{1.5, -2, 1}, {1.5, -0.5, 1}},  // ends before the door
+                                  {{2.5, -2, 1}, {2.5, 2, 1}}};    // through the wall
+  std::vector<Vec3> places, before;
+  for (double x = 0.05; x < 6; x += 0.1)
+    for (double z = 0.05; z < 3; z += 0.1)
+      (x < 1 || x > 4.2 || z > 2.1 ? places : before).emplace_back(x, 0, z);
+  for (Vec3& p : before) p.y() = -0.3;
+  // The door was not seen through; of the window at least nothing stands before it.
+  FoundOpenings found = find_openings(world, {lines, places});
+  REQUIRE(found.openings.size() == 1);
+  CHECK(found.openings[0].kind == OpeningKind::window);
+  CHECK(found.openings[0].evidence.find("no line of sight") != std::string::npos);
+  // Things hide it.
+  std::vector<Vec3> hidden = places;
+  hidden.insert(hidden.end(), before.begin(), before.end());
+  CHECK(find_openings(world, {lines, hidden}).openings.empty());
+  // Many lines go through the door, a stray one through the window.
+  for (double x = 1.05; x < 1.9; x += 0.1)
+    for (double z = 0.05; z < 2; z += 0.1) lines.push_back({{1.5, -2, 1}, {x, 0.5, z}});
+  lines.push_back({{3.6, -2, 1.5}, {3.6, 2, 1.5}});
+  found = find_openings(world, {lines, hidden});
+  REQUIRE(found.openings.size() == 1);
+  CHECK(found.openings[0].kind == OpeningKind::door);
+  CHECK(found.openings[0].evidence.find("lines of sight go through") != std::string::npos);
 }
 
-TEST_CASE("a notch in one face that no line of sight goes through is where a thing stands") {
-  const World world = wall_with_door_and_window();
-  const std::vector<SightLine> lines = {{{2.5, -2, 1}, {2.5, 2, 1}}};  // through the wall
-  const std::vector<Opening> openings = find_openings(world, lines);
-  REQUIRE(openings.size() == 1);
-  CHECK(openings[0].kind == OpeningKind::window);
+TEST_CASE("where no viewpoint is known, what things stand before in one face is no opening") {
+  World world = wall_with_door_and_window();
+  std::vector<Vec3> places;
+  for (double x = 1; x < 2; x += 0.05)
+    for (double z = 0; z < 2.1; z += 0.05) places.emplace_back(x, -0.4, z);
+  CHECK(find_openings(world, {{}, places}).openings.size() == 1);
+  add_back(world);
+  CHECK(find_openings(world, {{}, places}).openings.size() == 2);
 }
 
 TEST_CASE("the openings of the drawn worlds are found again") {
@@ -130,7 +197,7 @@ TEST_CASE("the openings of the drawn worlds are found again") {
     CAPTURE(name);
     const World world = read_world(std::filesystem::path(SCANWORLD_SOURCE_DIR) / "worlds" /
                                    (std::string(name) + ".json"));
-    const std::vector<Opening> found = find_openings(world);
+    const std::vector<Opening> found = find_openings(world).openings;
     for (const Opening& drawn : world.openings) {
       CAPTURE(drawn.id);
       CHECK(std::any_of(found.begin(), found.end(), [&](const Opening& o) {

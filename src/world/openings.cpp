@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <set>
+#include <numeric>
 
+#include "../parallel.h"
 #include "../polygon.h"
 
 namespace scanworld {
@@ -18,240 +17,248 @@ namespace {
 
 using Box2 = Eigen::AlignedBox2d;
 
-constexpr double kSame = 0.002;  // [m] places are one
+constexpr double kFacesCosine = 0.95;  // cosine between the faces of a wall
+constexpr double kOnWall = 0.03;       // [m] places are on a face
+constexpr double kBeyond = 0.1;        // [m] behind a face, where what a line of sight ends at is
+constexpr double kHiddenCell = 0.1;    // [m] in which places are looked for before a face
+constexpr double kSameCorner = 0.002;  // [m] corners are one
 
-// An opening in one face of a wall.
-struct Gap {
-  std::size_t surface = 0;  // index
-  Loop loop;
-  std::vector<Vec2> ring;  // in the wall's upright frame
-  Box2 clear;
-  bool is_low = false;    // begins at the wall's bottom
-  double measured = 0;    // [m] of its outline that other measured surfaces share
-  double length = 0;      // [m] of its outline, but for the bottom of a notch
-  std::size_t lines = 0;  // of sight that go through it
+// A gap of a face, and what was seen of it.
+struct SeenGap {
+  std::size_t face;
+  WallGap gap;
+  std::size_t lines = 0;  // of sight that go through
+  double hidden = 0;      // share that places stand before
+  double expected = 0;    // places on as much of the face
 
-  double width() const { return clear.sizes().x(); }
-  double height() const { return clear.sizes().y(); }
+  double area() const { return gap.clear.volume(); }
 };
 
-// Whether a box lies in a ring, but for `kSame` at its sides.
-bool holds(const std::vector<Vec2>& ring, const Box2& box) {
-  if (!is_inside({ring}, box.center())) return false;
-  const Box2 inner(Vec2(box.min().array() + kSame), Vec2(box.max().array() - kSame));
-  if (inner.isEmpty()) return false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    // The part of an edge within the box (Liang and Barsky 1984).
-    const Vec2 &p = ring[i], way = ring[(i + 1) % ring.size()] - p;
-    double low = 0, high = 1;
-    for (int a = 0; a < 2 && low < high; ++a) {
-      if (std::abs(way[a]) < 1e-12) {
-        if (p[a] <= inner.min()[a] || p[a] >= inner.max()[a]) high = low;
-        continue;
-      }
-      const double s = (inner.min()[a] - p[a]) / way[a], t = (inner.max()[a] - p[a]) / way[a];
-      low = std::max(low, std::min(s, t)), high = std::min(high, std::max(s, t));
+// What was seen of the gaps of a face.
+void look_at(const WallFace& face, const SeenScan& scan, const OpeningOptions& options,
+             std::vector<SeenGap>& gaps) {
+  std::size_t on_face = 0;
+  std::vector<std::vector<char>> hidden;
+  const auto columns = [](const Box2& box) {
+    return static_cast<std::size_t>(std::ceil(box.sizes().x() / kHiddenCell));
+  };
+  const auto rows = [](const Box2& box) {
+    return static_cast<std::size_t>(std::ceil(box.sizes().y() / kHiddenCell));
+  };
+  for (const SeenGap& c : gaps) hidden.emplace_back(columns(c.gap.clear) * rows(c.gap.clear));
+  for (const Vec3& place : scan.places) {
+    const double distance = face.plane.signed_distance(place);
+    if (distance < -kOnWall || distance > options.shadow_depth) continue;
+    const Vec2 p = face.frame.to_plane(place);
+    if (distance < kOnWall &&
+        std::any_of(face.rings.begin(), face.rings.end(),
+                    [&](const geos::Rings& rings) { return is_inside(rings, p); })) {
+      ++on_face;
+      continue;
     }
-    if (low < high) return false;
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const Box2& box = gaps[k].gap.clear;
+      if (!box.contains(p)) continue;
+      const Vec2 at = (p - box.min()) / kHiddenCell;
+      const auto x = std::min(columns(box) - 1, static_cast<std::size_t>(at.x())),
+                 y = std::min(rows(box) - 1, static_cast<std::size_t>(at.y()));
+      hidden[k][y * columns(box) + x] = 1;
+    }
   }
-  return true;
-}
-
-// The largest upright rectangle in a ring whose sides go through its corners, and whose bottom is
-// no more than `lift` [m] over the ring's.
-Box2 largest_rectangle(const std::vector<Vec2>& ring, double lift) {
-  std::set<double> xs, ys;
-  for (const Vec2& p : ring) xs.insert(p.x()), ys.insert(p.y());
-  Box2 best(Vec2::Zero(), Vec2::Zero());
-  for (auto y0 = ys.begin(); y0 != ys.end(); ++y0) {
-    if (*y0 > *ys.begin() + lift) break;
-    for (auto y1 = std::next(y0); y1 != ys.end(); ++y1)
-      for (auto x0 = xs.begin(); x0 != xs.end(); ++x0)
-        for (auto x1 = xs.end(); --x1 != x0;) {
-          const Box2 box(Vec2(*x0, *y0), Vec2(*x1, *y1));
-          if (box.volume() <= best.volume()) break;
-          if (holds(ring, box)) best = box;
-        }
+  for (const SightLine& line : scan.lines) {
+    const double from = face.plane.signed_distance(line.from),
+                 to = face.plane.signed_distance(line.to);
+    if ((from > 0) == (to > 0) || std::abs(to) < kBeyond) continue;
+    const Vec2 p = face.frame.to_plane(line.from + (line.to - line.from) * (from / (from - to)));
+    for (SeenGap& c : gaps) c.lines += c.gap.clear.contains(p);
   }
-  return best;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    gaps[k].hidden = static_cast<double>(std::count(hidden[k].begin(), hidden[k].end(), 1)) /
+                     static_cast<double>(hidden[k].size());
+    gaps[k].expected = static_cast<double>(on_face) / face.area * gaps[k].area();
+  }
 }
 
 class OpeningFinder {
  public:
-  OpeningFinder(const World& world, std::span<const SightLine> lines, const OpeningOptions& options)
-      : world_(world), lines_(lines), options_(options) {
-    for (const Surface& s : world.surfaces) {
-      if (s.source != Source::measured) continue;
-      add_edges(s.outer);
-      for (const Loop& hole : s.holes) add_edges(hole);
-    }
-  }
+  OpeningFinder(const World& world, const SeenScan& scan, const OpeningOptions& options)
+      : world_(world), scan_(scan), options_(options), faces_(wall_faces_of(world)) {}
 
-  std::vector<Opening> find() {
-    for (std::size_t s = 0; s < world_.surfaces.size(); ++s)
-      if (world_.surfaces[s].kind == Kind::wall) add_gaps(s);
-    std::vector<char> done(gaps_.size());
-    std::vector<Opening> openings;
-    for (std::size_t k = 0; k < gaps_.size(); ++k) {
-      if (done[k]) continue;
-      const std::optional<std::size_t> twin = twin_of(k);
-      if (twin) done[*twin] = 1;
-      if (const auto opening = describe(gaps_[k], twin ? &gaps_[*twin] : nullptr)) {
-        openings.push_back(*opening);
-        openings.back().id = static_cast<int>(openings.size()) - 1;
-      }
+  FoundOpenings find() {
+    std::vector<std::vector<SeenGap>> found(faces_.size());
+    parallel_for(faces_.size(), [&](std::size_t f) {
+      if (!is_wall(faces_[f])) return;
+      for (const WallGap& gap : gaps_of(world_, faces_[f], options_.gaps))
+        found[f].push_back({f, gap});
+      if (!found[f].empty()) look_at(faces_[f], scan_, options_, found[f]);
+      std::erase_if(found[f], [&](const SeenGap& c) { return !is_seen(c); });
+    });
+    for (const auto& own : found) gaps_.insert(gaps_.end(), own.begin(), own.end());
+    std::vector<char> taken(gaps_.size());
+    for (const std::size_t first : largest_first()) {
+      if (taken[first]) continue;
+      const std::vector<std::size_t> same = same_as(first, taken);
+      if (gaps_[first].area() > options_.max_size * wall_around(same)) continue;
+      for (const std::size_t k : same) taken[k] = 1;
+      describe(same);
     }
-    return openings;
+    return std::move(result_);
   }
 
  private:
-  const Vec3& at(int vertex) const { return world_.vertices[static_cast<std::size_t>(vertex)]; }
-
-  void add_edges(const Loop& loop) {
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      ++edges_[std::minmax(loop[k], loop[(k + 1) % loop.size()])];
+  bool is_wall(const WallFace& face) const {
+    return std::any_of(face.surfaces.begin(), face.surfaces.end(),
+                       [&](std::size_t s) { return world_.surfaces[s].kind == Kind::wall; });
   }
 
-  void add_gaps(std::size_t s) {
-    const Surface& surface = world_.surfaces[s];
-    const PlaneFrame frame = upright_frame(surface.plane, world_.frame.up, at(surface.outer[0]));
-    std::vector<Vec2> outer;
-    for (int v : surface.outer) outer.push_back(frame.to_plane(at(v)));
-    const double bottom = std::min_element(outer.begin(), outer.end(), [](auto& a, auto& b) {
-                            return a.y() < b.y();
-                          })->y();
-    for (const Loop& hole : surface.holes) {
-      std::vector<Vec2> ring;
-      for (int v : hole) ring.push_back(frame.to_plane(at(v)));
-      add_gap(s, hole, ring, bottom, false);
-    }
-    const std::size_t n = outer.size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (const std::size_t count = notch_at(outer, k); count > 0) {
-        Loop loop;
-        std::vector<Vec2> ring;
-        for (std::size_t i = 0; i <= count; ++i) {
-          loop.push_back(surface.outer[(k + i) % n]);
-          ring.push_back(outer[(k + i) % n]);
-        }
-        add_gap(s, loop, ring, bottom, true);
-        k += count - 1;
-      }
+  // Where viewpoints are known, lines of sight tell; what begins at the floor they must go through,
+  // else a thing stands there.
+  bool is_seen(const SeenGap& c) const {
+    if (scan_.lines.empty()) return true;
+    return static_cast<double>(c.lines) >= std::max(1.0, options_.min_seen * c.expected) ||
+           (!c.gap.is_low && c.hidden <= options_.max_hidden);
   }
 
-  // How many edges a notch has that begins at a corner: the outline goes up there, and comes down
-  // again to the same height farther to the right. 0 where there is none.
-  std::size_t notch_at(const std::vector<Vec2>& ring, std::size_t first) const {
-    const std::size_t n = ring.size();
-    const Vec2& start = ring[first];
-    const Vec2 up = ring[(first + 1) % n] - start;
-    if (up.y() < options_.min_height || std::abs(up.x()) > 0.3 * up.y()) return 0;
-    for (std::size_t count = 2; count < n - 1; ++count) {
-      const Vec2& p = ring[(first + count) % n];
-      if (p.y() > start.y() + options_.sill) continue;
-      const bool is_back = p.x() > start.x() + options_.min_width &&
-                           p.y() > start.y() - options_.sill &&
-                           std::abs((p - ring[(first + count - 1) % n]).x()) < 0.3 * up.y();
-      return is_back ? count : 0;
-    }
-    return 0;
+  std::vector<std::size_t> largest_first() const {
+    std::vector<std::size_t> order(gaps_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return gaps_[a].area() > gaps_[b].area();
+    });
+    return order;
   }
 
-  void add_gap(std::size_t s, const Loop& loop, const std::vector<Vec2>& ring, double bottom,
-               bool is_notch) {
-    Gap gap{.surface = s, .loop = loop, .ring = ring, .clear = {}, .is_low = is_notch};
+  // A gap's rectangle in the frame of a face.
+  Box2 seen_from(const WallFace& face, const SeenGap& c) const {
+    const WallFace& own = faces_[c.face];
     Box2 box;
-    for (const Vec2& p : ring) box.extend(p);
-    gap.is_low |= box.min().y() < bottom + options_.sill;
-    // What comes down to the floor on one side alone, as beside a skirting, is low still.
-    gap.clear =
-        largest_rectangle(ring, gap.is_low ? options_.sill : std::numeric_limits<double>::max());
-    if (gap.clear.volume() < options_.squareness * std::abs(doubled_area(ring)) / 2 ||
-        gap.width() < options_.min_width || gap.height() < options_.min_height)
-      return;
-    for (std::size_t k = 0; k + is_notch < loop.size(); ++k) {
-      const int a = loop[k], b = loop[(k + 1) % loop.size()];
-      const double length = (at(a) - at(b)).norm();
-      gap.length += length;
-      const auto found = edges_.find(std::minmax(a, b));
-      if (found != edges_.end() && found->second > 1) gap.measured += length;
-    }
-    const Surface& surface = world_.surfaces[s];
-    const PlaneFrame frame = upright_frame(surface.plane, world_.frame.up, at(surface.outer[0]));
-    for (const SightLine& line : lines_) {
-      const double from = surface.plane.signed_distance(line.from),
-                   to = surface.plane.signed_distance(line.to);
-      if ((from > 0) == (to > 0) || std::abs(to) < 0.1) continue;
-      const Vec2 p = frame.to_plane(line.from + (line.to - line.from) * (from / (from - to)));
-      gap.lines += box.contains(p) && is_inside({ring}, p);
-    }
-    gaps_.push_back(std::move(gap));
-  }
-
-  // The same opening in the other face of the wall.
-  std::optional<std::size_t> twin_of(std::size_t k) const {
-    const Gap& gap = gaps_[k];
-    const Plane& plane = world_.surfaces[gap.surface].plane;
-    const Box3 box = box_of(gap.loop);
-    for (std::size_t i = k + 1; i < gaps_.size(); ++i) {
-      const Plane& other = world_.surfaces[gaps_[i].surface].plane;
-      if (plane.normal.dot(other.normal) > -0.95) continue;
-      const Box3 its = box_of(gaps_[i].loop);
-      const Vec3 apart = its.center() - box.center();
-      const double behind = -plane.normal.dot(apart);
-      if (behind > 0 && behind < options_.max_thickness &&
-          (apart + behind * plane.normal).norm() < 0.25 * box.diagonal().norm())
-        return i;
-    }
-    return std::nullopt;
-  }
-
-  Box3 box_of(const Loop& loop) const {
-    Box3 box;
-    for (int v : loop) box.extend(at(v));
+    for (const auto corner : {Box2::BottomLeft, Box2::TopRight})
+      box.extend(face.frame.to_plane(own.frame.to_space(c.gap.clear.corner(corner))));
     return box;
   }
 
-  std::optional<Opening> describe(const Gap& gap, const Gap* twin) const {
-    const double width = twin ? std::min(gap.width(), twin->width()) : gap.width(),
-                 height = twin ? std::min(gap.height(), twin->height()) : gap.height();
+  // [m2] of the largest face that has a gap of about the size of the first.
+  double wall_around(const std::vector<std::size_t>& same) const {
+    double area = 0;
+    for (const std::size_t k : same)
+      if (gaps_[k].area() > options_.same * gaps_[same[0]].area())
+        area = std::max(area, faces_[gaps_[k].face].area);
+    return area;
+  }
+
+  bool are_one(const SeenGap& a, const SeenGap& b) const {
+    const WallFace &face = faces_[a.face], &other = faces_[b.face];
+    if (std::abs(face.plane.normal.dot(other.plane.normal)) < kFacesCosine) return false;
+    const Vec3 middle = other.frame.to_space(b.gap.clear.center());
+    if (std::abs(face.plane.signed_distance(middle)) > options_.gaps.max_thickness) return false;
+    const Box2 both = a.gap.clear.intersection(seen_from(face, b));
+    return !both.isEmpty() && both.volume() > options_.same * std::min(a.area(), b.area());
+  }
+
+  // The gaps that are one opening with this one, which comes first.
+  std::vector<std::size_t> same_as(std::size_t first, const std::vector<char>& taken) const {
+    std::vector<std::size_t> same = {first};
+    for (std::size_t k = 0; k < gaps_.size(); ++k)
+      if (k != first && !taken[k] && are_one(gaps_[first], gaps_[k])) same.push_back(k);
+    return same;
+  }
+
+  void describe(const std::vector<std::size_t>& same) {
+    const SeenGap& main = gaps_[same[0]];
+    const WallFace& face = faces_[main.face];
+    Box2 clear = main.gap.clear;
+    bool is_low = false, is_through = false;
+    double measured = 0;
+    std::size_t lines = 0;
+    for (const std::size_t k : same) {
+      const SeenGap& c = gaps_[k];
+      const Box2 its = seen_from(face, c);
+      for (int axis = 0; axis < 2; ++axis) {
+        if (its.min()[axis] < main.gap.clear.min()[axis] + options_.max_apart)
+          clear.min()[axis] = std::max(clear.min()[axis], its.min()[axis]);
+        if (its.max()[axis] > main.gap.clear.max()[axis] - options_.max_apart)
+          clear.max()[axis] = std::min(clear.max()[axis], its.max()[axis]);
+      }
+      is_low |= c.gap.is_low;
+      is_through |= faces_[c.face].plane.normal.dot(face.plane.normal) < 0;
+      measured = std::max(measured, c.gap.measured);
+      lines = std::max(lines, c.lines);
+    }
+    if (scan_.lines.empty() && !is_through && main.hidden > options_.max_hidden_blind) return;
+    const Vec2 size = clear.sizes();
     OpeningKind kind = OpeningKind::window;
-    if (gap.is_low) {
-      // In one face alone, and nobody saw through: a thing stands there.
-      if (!twin && !lines_.empty() && gap.lines == 0) return std::nullopt;
-      if (height < options_.min_door_height && !twin) return std::nullopt;
-      kind = height >= options_.min_door_height && height <= options_.max_door_height &&
-                     width <= options_.max_door_width
+    if (is_low) {
+      if (size.y() < options_.min_door_height && !is_through) return;
+      kind = size.y() >= options_.min_door_height && size.y() <= options_.max_door_height &&
+                     size.x() <= options_.max_door_width
                  ? OpeningKind::door
                  : OpeningKind::passage;
     }
-    std::string evidence = twin ? "open in both faces of the wall" : "open in one face";
-    const double measured = gap.measured + (twin ? twin->measured : 0),
-                 length = gap.length + (twin ? twin->length : 0);
-    evidence += fmt::format(", {:.0f} % of its sides measured", 100 * measured / length);
-    if (const std::size_t lines = std::max(gap.lines, twin ? twin->lines : 0); !lines_.empty())
+    std::string evidence = is_through ? "open in both faces of the wall" : "open in one face";
+    evidence += fmt::format(", {:.0f} % of its sides measured", 100 * measured);
+    if (!scan_.lines.empty())
       evidence += lines > 0 ? fmt::format(", {} lines of sight go through", lines)
                             : ", no line of sight goes through";
-    return Opening{.kind = kind,
-                   .surface = world_.surfaces[gap.surface].id,
-                   .loop = gap.loop,
-                   .width = width,
-                   .height = height,
-                   .evidence = evidence};
+    result_.openings.push_back({.id = static_cast<int>(result_.openings.size()),
+                                .kind = kind,
+                                .surface = world_.surfaces[surface_beside(face, clear)].id,
+                                .loop = loop_of(face, clear),
+                                .width = size.x(),
+                                .height = size.y(),
+                                .evidence = evidence});
+  }
+
+  // The largest surface of a face that is beside a rectangle.
+  std::size_t surface_beside(const WallFace& face, const Box2& clear) const {
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
+      Box2 box;
+      for (const Vec2& p : face.rings[k][0]) box.extend(p);
+      const double apart = box.exteriorDistance(clear) - 1e-9 * box.volume();
+      if (apart < least) least = apart, best = k;
+    }
+    return face.surfaces[best];
+  }
+
+  // Counter-clockwise seen against the face's normal. Corners of the face are used again.
+  Loop loop_of(const WallFace& face, const Box2& clear) {
+    Loop loop;
+    for (const auto corner : {Box2::BottomLeft, Box2::BottomRight, Box2::TopRight, Box2::TopLeft})
+      loop.push_back(vertex_at(face, face.frame.to_space(clear.corner(corner))));
+    return loop;
+  }
+
+  int vertex_at(const WallFace& face, const Vec3& place) {
+    std::optional<int> nearest;
+    double least = kSameCorner;
+    const auto look = [&](int v) {
+      const double d = (world_.vertices[static_cast<std::size_t>(v)] - place).norm();
+      if (d < least) least = d, nearest = v;
+    };
+    for (const std::size_t s : face.surfaces) {
+      for (int v : world_.surfaces[s].outer) look(v);
+      for (const Loop& hole : world_.surfaces[s].holes)
+        for (int v : hole) look(v);
+    }
+    if (nearest) return *nearest;
+    result_.corners.push_back(place);
+    return static_cast<int>(world_.vertices.size() + result_.corners.size()) - 1;
   }
 
   const World& world_;
-  const std::span<const SightLine> lines_;
+  const SeenScan& scan_;
   const OpeningOptions& options_;
-  std::map<std::pair<int, int>, int> edges_;  // how many measured surfaces have each
-  std::vector<Gap> gaps_;
+  const std::vector<WallFace> faces_;
+  std::vector<SeenGap> gaps_;
+  FoundOpenings result_;
 };
 
 }  // namespace
 
-std::vector<Opening> find_openings(const World& world, std::span<const SightLine> sight_lines,
-                                   const OpeningOptions& options) {
-  return OpeningFinder(world, sight_lines, options).find();
+FoundOpenings find_openings(const World& world, const SeenScan& scan,
+                            const OpeningOptions& options) {
+  return OpeningFinder(world, scan, options).find();
 }
 
 }  // namespace scanworld

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "wall_gaps.h"
 #include "world.h"
 
 namespace scanworld {
@@ -15,20 +16,37 @@ struct SightLine {
 };
 
 struct OpeningOptions {
-  double min_width = 0.3, min_height = 0.3;  // [m] clear
-  double sill = 0.15;            // [m] what ends no higher over the wall's bottom is a door or a
-                                 // passage
-  double min_door_height = 1.7;  // [m] clear; lower ones count where they go through both faces
+  WallGapOptions gaps;
+  double min_door_height = 1.7;  // [m] clear; lower ones that begin at the floor count where they
+                                 // go through both faces
   double max_door_height = 2.6, max_door_width = 1.6;  // [m] larger ones are passages
-  double squareness = 0.7;     // least share of an opening that is its clear rectangle
-  double max_thickness = 0.6;  // [m] of a wall whose two faces have the same opening
+  double same = 0.6;        // share of the smaller of two gaps that both have; then they are one
+  double max_apart = 0.15;  // [m] of their sides; by more only the larger one's counts
+  double max_size = 0.5;    // [m2] of an opening for each m2 of a face around it
+  double min_seen = 0.05;   // lines of sight through an opening, of as many as there are places on
+                            // as much of the wall
+  double shadow_depth = 0.7;  // [m] before a wall, where places hide it ...
+  double max_hidden = 0.3;    // ... but no more than this share of an opening that no line of sight
+                              // goes through, as a window to the sky ...
+  double max_hidden_blind = 0.6;  // ... or, where no viewpoint is known, of one in one face alone
 };
 
-// The doors, windows and passages of walls: their holes, and notches that begin at the bottom. The
-// clear size is that of the largest upright rectangle in it, and where both faces of a wall have
-// the opening, the smaller of both; it is told once, on the surface with the smaller id.
-// `sight_lines` may be empty; those that go through an opening are counted in its evidence.
-std::vector<Opening> find_openings(const World& world, std::span<const SightLine> sight_lines = {},
-                                   const OpeningOptions& options = {});
+// What was seen of a scan.
+struct SeenScan {
+  std::span<const SightLine> lines;  // where viewpoints are known
+  std::span<const Vec3> places;      // with points, as far apart everywhere
+};
+
+struct FoundOpenings {
+  std::vector<Opening> openings;
+  std::vector<Vec3> corners;  // of openings, to come after the world's vertices
+};
+
+// The doors, windows and passages of walls: the upright rectangles that both faces of a wall leave
+// free, and what stands within its thickness, each told once. It must have been seen: lines of
+// sight go through, or nothing stands before it. Its loop is the rectangle in the face with most
+// surface. Without a scan all gaps are openings.
+FoundOpenings find_openings(const World& world, const SeenScan& scan = {},
+                            const OpeningOptions& options = {});
 
 }  // namespace scanworld
