@@ -50,9 +50,7 @@ void look_at(const WallFace& face, const SeenScan& scan, const OpeningOptions& o
     const double distance = face.plane.signed_distance(place);
     if (distance < -kOnWall || distance > options.shadow_depth) continue;
     const Vec2 p = face.frame.to_plane(place);
-    if (distance < kOnWall &&
-        std::any_of(face.rings.begin(), face.rings.end(),
-                    [&](const geos::Rings& rings) { return is_inside(rings, p); })) {
+    if (distance < kOnWall && face.holds(p)) {
       ++on_face;
       continue;
     }
@@ -89,7 +87,7 @@ class OpeningFinder {
     parallel_for(faces_.size(), [&](std::size_t f) {
       if (!is_wall(faces_[f])) return;
       for (const WallGap& gap : gaps_of(world_, faces_[f], options_.gaps))
-        found[f].push_back({f, gap});
+        if (may_be_opening(faces_[f], gap)) found[f].push_back({f, gap});
       if (!found[f].empty()) look_at(faces_[f], scan_, options_, found[f]);
       std::erase_if(found[f], [&](const SeenGap& c) { return !is_seen(c); });
     });
@@ -98,7 +96,6 @@ class OpeningFinder {
     for (const std::size_t first : largest_first()) {
       if (taken[first]) continue;
       const std::vector<std::size_t> same = same_as(first, taken);
-      if (gaps_[first].area() > options_.max_size * wall_around(same)) continue;
       for (const std::size_t k : same) taken[k] = 1;
       describe(same);
     }
@@ -109,6 +106,36 @@ class OpeningFinder {
   bool is_wall(const WallFace& face) const {
     return std::any_of(face.surfaces.begin(), face.surfaces.end(),
                        [&](std::size_t s) { return world_.surfaces[s].kind == Kind::wall; });
+  }
+
+  // Whether there is enough wall around a gap, or a casing, and no niche in it.
+  bool may_be_opening(const WallFace& face, const WallGap& gap) const {
+    const bool is_cased = gap.is_low && gap.measured >= options_.min_measured && is_door(gap.clear);
+    return (gap.clear.volume() <= options_.max_size * face.area || is_cased) &&
+           !(gap.is_low && is_niche(face, gap));
+  }
+
+  bool is_door(const Box2& clear) const {
+    const Vec2 size = clear.sizes();
+    return size.y() >= options_.min_door_height && size.y() <= options_.max_door_height &&
+           size.x() <= options_.max_door_width;
+  }
+
+  // Whether another part of the wall closes much of a gap a little deeper.
+  bool is_niche(const WallFace& face, const WallGap& gap) const {
+    constexpr int kAsked = 5;  // places along each side
+    int closed = 0;
+    for (int k = 0; k < kAsked * kAsked; ++k) {
+      const Vec2 share((k % kAsked + 0.5) / kAsked, (k / kAsked + 0.5) / kAsked);
+      const Vec3 place =
+          face.frame.to_space(gap.clear.min() + share.cwiseProduct(gap.clear.sizes()));
+      closed += std::any_of(faces_.begin(), faces_.end(), [&](const WallFace& other) {
+        const double depth = other.plane.signed_distance(place);
+        return other.plane.normal.dot(face.plane.normal) > kFacesCosine && depth > kBeyond &&
+               depth < options_.gaps.max_thickness && other.holds(other.frame.to_plane(place));
+      });
+    }
+    return 2 * closed > kAsked * kAsked;
   }
 
   // Where viewpoints are known, lines of sight tell; what begins at the floor they must go through,
@@ -135,15 +162,6 @@ class OpeningFinder {
     for (const auto corner : {Box2::BottomLeft, Box2::TopRight})
       box.extend(face.frame.to_plane(own.frame.to_space(c.gap.clear.corner(corner))));
     return box;
-  }
-
-  // [m2] of the largest face that has a gap of about the size of the first.
-  double wall_around(const std::vector<std::size_t>& same) const {
-    double area = 0;
-    for (const std::size_t k : same)
-      if (gaps_[k].area() > options_.same * gaps_[same[0]].area())
-        area = std::max(area, faces_[gaps_[k].face].area);
-    return area;
   }
 
   bool are_one(const SeenGap& a, const SeenGap& b) const {
@@ -189,10 +207,7 @@ class OpeningFinder {
     OpeningKind kind = OpeningKind::window;
     if (is_low) {
       if (size.y() < options_.min_door_height && !is_through) return;
-      kind = size.y() >= options_.min_door_height && size.y() <= options_.max_door_height &&
-                     size.x() <= options_.max_door_width
-                 ? OpeningKind::door
-                 : OpeningKind::passage;
+      kind = is_door(clear) ? OpeningKind::door : OpeningKind::passage;
     }
     std::string evidence = is_through ? "open in both faces of the wall" : "open in one face";
     evidence += fmt::format(", {:.0f} % of its sides measured", 100 * measured);

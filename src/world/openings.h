@@ -20,11 +20,13 @@ struct OpeningOptions {
   double min_door_height = 1.7;  // [m] clear; lower ones that begin at the floor count where they
                                  // go through both faces
   double max_door_height = 2.6, max_door_width = 1.6;  // [m] larger ones are passages
-  double same = 0.6;        // share of the smaller of two gaps that both have; then they are one
-  double max_apart = 0.15;  // [m] of their sides; by more only the larger one's counts
-  double max_size = 0.5;    // [m2] of an opening for each m2 of a face around it
-  double min_seen = 0.05;   // lines of sight through an opening, of as many as there are places on
-                            // as much of the wall
+  double same = 0.6;          // share of the smaller of two gaps that both have; then they are one
+  double max_apart = 0.15;    // [m] of their sides; by more only the larger one's counts
+  double max_size = 1;        // [m2] of a gap for each m2 of its face; of a larger one, as within a
+                              // casing, ...
+  double min_measured = 0.9;  // ... so much of its sides must be measured
+  double min_seen = 0.05;  // lines of sight through an opening, of as many as there are places on
+                           // as much of the wall
   double shadow_depth = 0.7;  // [m] before a wall, where places hide it ...
   double max_hidden = 0.3;    // ... but no more than this share of an opening that no line of sight
                               // goes through, as a window to the sky ...

@@ -24,7 +24,7 @@ constexpr double kBeside = 0.1;      // [m] before a wall, where a floor ends th
 constexpr double kRoom = 0.4;        // [m] from a wall, so far a floor goes at least
 constexpr double kFloor = 2;         // [m2] smaller ones may be tables
 constexpr double kBesideCosine = 0.95, kClose = 0.1;  // [m] of what closes a gap of a face
-constexpr double kInside = 0.004;        // [m] less of a surface in a row does not close it
+constexpr double kInside = 0.012;        // [m] less of a surface in a row does not close it
 constexpr std::size_t kMostGaps = 64;    // of a face
 constexpr std::size_t kMostSteps = 400;  // along each axis of a face; of more the longest edges
 

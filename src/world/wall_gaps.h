@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "../polygon.h"
 #include "geos.h"
 #include "world.h"
 
@@ -26,6 +28,11 @@ struct WallFace {
   std::vector<geos::Rings> rings;     // of each, in the frame
   Eigen::AlignedBox2d box;
   double area = 0;  // [m2] of all
+
+  bool holds(const Vec2& p) const {
+    return std::any_of(rings.begin(), rings.end(),
+                       [&](const geos::Rings& own) { return is_inside(own, p); });
+  }
 };
 
 std::vector<WallFace> wall_faces_of(const World& world);
