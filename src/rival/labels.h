@@ -36,9 +36,4 @@ LabelledPoints label_points(const PointCloud& cloud, const Grid& grid, const Nei
                             const Scale& scale, const Clustering& clustering,
                             const LabelOptions& options = {});
 
-// Gives what is of no plane and no farther than this [m] off a level one beside it to that, and so
-// on: what lies on a floor, as carpets do, is that floor.
-LabelledPoints spread_floors(const PointCloud& cloud, const Grid& grid, const Neighbors& neighbors,
-                             LabelledPoints labelled, const Vec3& up, double tolerance);
-
 }  // namespace scanworld::rival

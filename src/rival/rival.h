@@ -24,6 +24,7 @@
 #include "scale.h"
 #include "sides.h"
 #include "split.h"
+#include "spread_floors.h"
 
 namespace scanworld::rival {
 
