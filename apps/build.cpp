@@ -39,7 +39,7 @@ writes office/world.json, report.json, world.obj, world.stl, world.glb and world
 struct BuildRequest {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out, config, poses;
-  std::string budget, sagitta, floor_tolerance;
+  std::string budget, sagitta, floor_tolerance, unknown;
   std::string method = "rival", preset;  // an empty preset: the one that suits the scan
   std::vector<std::string> assignments, exports = {"obj", "stl", "glb", "bullet"};
   int threads = 0;
@@ -59,6 +59,7 @@ ReconstructOptions resolve_options(const BuildRequest& request) {
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
+  if (!request.unknown.empty()) options.space.unknown = space::unknown_named(request.unknown);
   if (!request.floor_tolerance.empty())
     options.floor_tolerance = length_from("--floor-tolerance", request.floor_tolerance);
   options.record = request.record;
@@ -141,6 +142,7 @@ Json whole_report(const BuildRequest& request, const ReconstructResult& result,
   report["scans"] = Json::array();
   for (const auto& scan : request.scans) report["scans"].push_back(scan.string());
   report["method"] = request.method;
+  if (!request.unknown.empty()) report["unknown"] = request.unknown;
   report["preset"] = request.preset;
   report["complete_seconds"] = seconds;
   return report;
@@ -268,6 +270,10 @@ void add_build(CLI::App& app) {
   verb->add_option("--floor-tolerance", request->floor_tolerance,
                    "What lies no higher on a floor is that floor, as carpets are: 2cm")
       ->type_name("LENGTH");
+  verb->add_option("--unknown", request->unknown,
+                   "What becomes of space that nobody saw: solid, free or open; without it, it is "
+                   "solid behind surfaces and open elsewhere")
+      ->type_name("WHAT");
   verb->add_flag("--labels", request->labels,
                  "Also write labels.ply: the surface of each input point");
   verb->add_flag("--record", request->record,

@@ -69,7 +69,7 @@ bool is_measured(const Vec3& place, const std::vector<int>& patches,
 // Each surface between free and solid as a piece of the plane that it has points of; of none it is
 // inferred. Those with most points first.
 PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::Interface> shown,
-                         const std::vector<Plane>& planes,
+                         const std::vector<space::Label>& behind, const std::vector<Plane>& planes,
                          const std::vector<space::Cover>& covers) {
   std::stable_sort(shown.begin(), shown.end(),
                    [](const space::Interface& a, const space::Interface& b) {
@@ -80,7 +80,7 @@ PiecesInPlanes pieces_of(const space::LabelledSpace& space, std::vector<space::I
   PiecesInPlanes result{{}, planes, {}, std::vector<double>(shown.size())};
   parallel_for(shown.size(), [&](std::size_t k) {
     result.depths[k] =
-        std::max(kLeastDepth, space::depth_behind(space.arrangement.cells, space.labels, shown[k]));
+        std::max(kLeastDepth, space::depth_behind(space.arrangement.cells, behind, shown[k]));
   });
   for (space::Interface& i : shown) {
     Piece piece{static_cast<int>(result.planes.size()), std::move(i.loops)};
@@ -189,12 +189,15 @@ class SurfaceFinder {
     const space::LabelledSpace space =
         log_.run("Labelling space", "planes -> cells", patches_,
                  [&] { return space::label_space(input, outlook, viewpoints_, space_options_); });
+    space::InterfaceOptions interfaces = space_options_.interfaces;
+    interfaces.is_closed = space_options_.unknown == space::Unknown::solid;
     return log_.run("Finding interfaces", "cells -> surfaces", space, [&] {
-      const PiecesInPlanes found =
-          pieces_of(space,
-                    space::find_interfaces(space.arrangement.cells, space.evidence, space.labels,
-                                           space_options_.interfaces),
-                    in_.planes, outlook.covers);
+      const PiecesInPlanes found = pieces_of(
+          space,
+          space::find_interfaces(space.arrangement.cells, space.evidence,
+                                 space::labels_of_surfaces(space.labels, space_options_.unknown),
+                                 interfaces),
+          space::labels_behind(space.labels, space_options_.unknown), in_.planes, outlook.covers);
       recorder_.add("Arrangement", "planes cut space; surfaces are where free meets solid",
                     loops_of(found.pieces));
       std::vector<FoundSurface> surfaces = describe_all(found.pieces, found.planes);

@@ -405,6 +405,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   for (const Option& option : list_options(used))
     result.world.provenance.options[option.name] = option.value();
   result.world.provenance.options["method"] = name_of(options.method);
+  if (options.space.unknown != space::Unknown::behind)
+    result.world.provenance.options["unknown"] = std::string(name_of(options.space.unknown));
   result.world.provenance.program = std::string("scanworld ") + version();
   return result;
 }

@@ -489,6 +489,44 @@ TEST_CASE("what lies on a floor is that floor up to --floor-tolerance") {
   CHECK(contains(wrong.err, "--floor-tolerance: 'wide' is no length"));
 }
 
+TEST_CASE("--unknown closes what a single view left open, or leaves it out behind surfaces") {
+  const TempFolder folder;
+  // Three walls of a room; the camera stands in the fourth.
+  PointCloud cloud = room_points({5, 4, 2.7}, 0.03, 0.002);
+  std::erase_if(cloud.points, [](const Vec3f& p) { return p.y() < 0.1F && p.z() > 0.1F; });
+  write_scan(folder / "view.ply", cloud);
+  write_file(folder / "poses.txt", "2.5 0.3 1.3\n");
+  const auto built = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"build",   folder / "view.ply",  "-o",       folder / "w",
+                                      "--poses", folder / "poses.txt", "--export", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(run(words).code == 0);
+    return read_world(folder / "w");
+  };
+  const auto open_edges = [](const World& world) {
+    std::map<std::pair<int, int>, int> uses;
+    for (const Surface& s : world.surfaces)
+      for (std::size_t k = 0; k < s.outer.size(); ++k)
+        ++uses[std::minmax(s.outer[k], s.outer[(k + 1) % s.outer.size()])];
+    return std::count_if(uses.begin(), uses.end(), [](const auto& u) { return u.second == 1; });
+  };
+  const World by_default = built({}), solid = built({"--unknown", "solid"}),
+              open = built({"--unknown", "open"}), free = built({"--unknown", "free"});
+  CHECK(by_default.provenance.options.count("unknown") == 0);
+  CHECK(open_edges(by_default) > 0);
+  CHECK(open_edges(solid) == 0);
+  CHECK(std::get<std::string>(solid.provenance.options.at("unknown")) == "solid");
+  CHECK(solid.surfaces.size() > by_default.surfaces.size());
+  CHECK(open.surfaces.size() == by_default.surfaces.size());
+  CHECK(free.surfaces.size() >= by_default.surfaces.size());
+  for (std::size_t k = 0; k < open.surfaces.size(); ++k)
+    CHECK(open.surfaces[k].thickness <= by_default.surfaces[k].thickness);
+  const Outcome wrong =
+      run({"build", folder / "view.ply", "-o", folder / "w", "--unknown", "shut"});
+  CHECK(wrong.code == 2);
+  CHECK(contains(wrong.err, "--unknown: 'shut' is none of solid, free and open"));
+}
+
 TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
   const TempFolder folder;
   CHECK(run({"scan", in_project("worlds/room.json"), "-o", folder / "s.ply", "--points", "100000",

@@ -40,9 +40,12 @@ double depth_behind(const CellComplex& cells, const std::vector<Label>& labels,
     for (const int v : facet.vertices)
       middle += cells.vertex(v) / static_cast<double>(facet.vertices.size());
     const double area = cells.area_of(facet) / static_cast<double>(facet.vertices.size() + 1);
+    const bool is_border = facet.cells[0] < 0 || facet.cells[1] < 0;
     const auto look = [&](const Vec3& place) {
       depths.push_back(
-          {depth_at(cells, labels, place, inwards, surface.plane, options.max_depth), area});
+          {is_border ? options.max_depth
+                     : depth_at(cells, labels, place, inwards, surface.plane, options.max_depth),
+           area});
       whole += area;
     };
     look(middle);

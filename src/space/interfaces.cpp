@@ -28,17 +28,20 @@ struct Sheet {
 
 // The facets between free and solid; where points should be and are not, they are openings.
 FacetsBetween facets_between(const CellComplex& cells, const Evidence& evidence,
-                             const std::vector<Label>& labels, double max_empty) {
-  const auto label_of = [&](int cell) { return labels[static_cast<std::size_t>(cell)]; };
+                             const std::vector<Label>& labels, const InterfaceOptions& options) {
+  const Label beyond = options.is_closed ? Label::solid : Label::unknown;
+  const auto label_of = [&](int cell) {
+    return cell < 0 ? beyond : labels[static_cast<std::size_t>(cell)];
+  };
   FacetsBetween found;
   for (std::size_t f = 0; f < cells.facets().size(); ++f) {
     const CellFacet& facet = cells.facets()[f];
-    if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
     const Label a = label_of(facet.cells[0]), b = label_of(facet.cells[1]);
     if (!(a == Label::free && b == Label::solid) && !(a == Label::solid && b == Label::free))
       continue;
     const FacetEvidence& e = evidence.facets[f];
-    (e.empty > max_empty * e.area ? found.openings : found.surfaces).push_back(static_cast<int>(f));
+    (e.empty > options.max_empty * e.area ? found.openings : found.surfaces)
+        .push_back(static_cast<int>(f));
   }
   return found;
 }
@@ -266,7 +269,7 @@ class SheetTracer {
 std::vector<Interface> find_interfaces(const CellComplex& cells, const Evidence& evidence,
                                        const std::vector<Label>& labels,
                                        const InterfaceOptions& options) {
-  const FacetsBetween between = facets_between(cells, evidence, labels, options.max_empty);
+  const FacetsBetween between = facets_between(cells, evidence, labels, options);
   const FacetEdges edges(cells, all_of(between), options.same);
   const std::vector<int> shown = close_slits(cells, labels, edges, between, options.narrow);
   return SheetTracer(cells, evidence, labels, edges, options).trace(shown);

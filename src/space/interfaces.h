@@ -13,6 +13,7 @@ struct InterfaceOptions {
   double same = 0.0009;    // [m] corners nearer than this are one; `validate` lets 1 mm pass
   double narrow = 0.005;   // [m] openings are no narrower, nor is what hangs beside a surface alone
   double min_area = 1e-6;  // [m2] of what is shown
+  bool is_closed = false;  // whether space ends at the box's border
 };
 
 // A surface between free and solid: facets of one plane that hang together.

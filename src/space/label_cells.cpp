@@ -179,4 +179,18 @@ std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidenc
   return Labeller(cells, evidence, options).label();
 }
 
+std::vector<Label> labels_of_surfaces(std::vector<Label> labels, Unknown unknown) {
+  if (unknown == Unknown::solid)
+    std::replace(labels.begin(), labels.end(), Label::unknown, Label::solid);
+  if (unknown == Unknown::free)
+    std::replace(labels.begin(), labels.end(), Label::unknown, Label::free);
+  return labels;
+}
+
+std::vector<Label> labels_behind(std::vector<Label> labels, Unknown unknown) {
+  if (unknown == Unknown::free || unknown == Unknown::open)
+    std::replace(labels.begin(), labels.end(), Label::unknown, Label::free);
+  return labels;
+}
+
 }  // namespace scanworld::space

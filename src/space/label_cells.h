@@ -32,10 +32,22 @@ struct LabelOptions {
 
 enum class Label : std::uint8_t { free, solid, unknown };
 
+// What becomes of space that is unknown.
+enum class Unknown : std::uint8_t {
+  behind,  // solid behind surfaces, open elsewhere
+  solid,   // solid: open sides are closed by surfaces that were not measured
+  free,    // free: what is solid has surfaces, not measured, also where it ends at unknown space
+  open     // neither: it has no surfaces, and nothing of it is behind one
+};
+
 // What each cell is. A surface is between free and solid, an open side between free and unknown;
 // between solid and unknown there is nothing to pay.
 std::vector<Label> label_cells(const CellComplex& cells, const Evidence& evidence,
                                const LabelOptions& options = {});
+
+// Labels that surfaces are read off, and those that tell how deep it is solid behind them.
+std::vector<Label> labels_of_surfaces(std::vector<Label> labels, Unknown unknown);
+std::vector<Label> labels_behind(std::vector<Label> labels, Unknown unknown);
 
 // Makes solid the cells that are slits in what is solid: over a door, where the lintel's edges are
 // a few millimetres apart on the two sides of the wall.

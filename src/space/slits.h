@@ -11,7 +11,8 @@ namespace scanworld::space {
 
 // Of a facet between free and solid: 0 where the cell before it is free, 1 where that behind it is.
 inline std::size_t free_side_of(const CellFacet& facet, const std::vector<Label>& labels) {
-  return labels[static_cast<std::size_t>(facet.cells[0])] == Label::free ? 0 : 1;
+  const int before = facet.cells[0];
+  return before >= 0 && labels[static_cast<std::size_t>(before)] == Label::free ? 0 : 1;
 }
 
 // Facets of one plane with the same side free that share edges, together.

@@ -19,7 +19,12 @@ struct SpaceOptions {
   ArrangeOptions arrange;
   LabelOptions labels;
   InterfaceOptions interfaces;
+  Unknown unknown = Unknown::behind;  // what becomes of space that nobody saw
 };
+
+// What becomes of it by this name: solid, free or open; throws usage where there is none.
+Unknown unknown_named(const std::string& name);
+const char* name_of(Unknown unknown);
 
 OptionList list_options(SpaceOptions& options);
 

@@ -2,9 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The options of space by their names.
+#include <fmt/format.h>
+
+#include "../error.h"
 #include "space.h"
 
 namespace scanworld::space {
+
+const char* name_of(Unknown unknown) {
+  constexpr const char* kNames[] = {"behind", "solid", "free", "open"};
+  return kNames[static_cast<std::size_t>(unknown)];
+}
+
+Unknown unknown_named(const std::string& name) {
+  for (const Unknown unknown : {Unknown::solid, Unknown::free, Unknown::open})
+    if (name == name_of(unknown)) return unknown;
+  throw Error(Cause::usage, fmt::format("--unknown: '{}' is none of solid, free and open", name));
+}
 
 OptionList list_options(SpaceOptions& o) {
   return {
