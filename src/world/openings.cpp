@@ -112,7 +112,21 @@ class OpeningFinder {
   bool may_be_opening(const WallFace& face, const WallGap& gap) const {
     const bool is_cased = gap.is_low && gap.measured >= options_.min_measured && is_door(gap.clear);
     return (gap.clear.volume() <= options_.max_size * face.area || is_cased) &&
-           !(gap.is_low && is_niche(face, gap));
+           (gap.is_low ? !is_niche(face, gap) : is_in_wall(face, gap));
+  }
+
+  // Whether a gap is beside a part of the face that is as large: the bays of a shelf are beside the
+  // fronts of what stands in it.
+  bool is_in_wall(const WallFace& face, const WallGap& gap) const {
+    for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
+      const Surface& surface = world_.surfaces[face.surfaces[k]];
+      Box2 box;
+      for (const Vec2& p : face.rings[k][0]) box.extend(p);
+      if (surface.kind == Kind::wall && box.exteriorDistance(gap.clear) < kBeyond &&
+          scanworld::area(world_, surface) >= gap.clear.volume())
+        return true;
+    }
+    return false;
   }
 
   bool is_door(const Box2& clear) const {
