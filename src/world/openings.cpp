@@ -20,6 +20,7 @@ using Box2 = Eigen::AlignedBox2d;
 constexpr double kFacesCosine = 0.95;  // cosine between the faces of a wall
 constexpr double kOnWall = 0.03;       // [m] places are on a face
 constexpr double kBeyond = 0.1;        // [m] behind a face, where what a line of sight ends at is
+constexpr double kAside = 0.1;         // [m] of a gap, where the wall around it is
 constexpr double kHiddenCell = 0.1;    // [m] in which places are looked for before a face
 constexpr double kSameCorner = 0.002;  // [m] corners are one
 
@@ -120,10 +121,8 @@ class OpeningFinder {
   bool is_in_wall(const WallFace& face, const WallGap& gap) const {
     for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
       const Surface& surface = world_.surfaces[face.surfaces[k]];
-      Box2 box;
-      for (const Vec2& p : face.rings[k][0]) box.extend(p);
-      if (surface.kind == Kind::wall && box.exteriorDistance(gap.clear) < kBeyond &&
-          scanworld::area(world_, surface) >= gap.clear.volume())
+      if (surface.kind == Kind::wall && face.boxes[k].exteriorDistance(gap.clear) < kAside &&
+          area(world_, surface) >= gap.clear.volume())
         return true;
     }
     return false;
@@ -242,8 +241,7 @@ class OpeningFinder {
     std::size_t best = 0;
     double least = 1e300;
     for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
-      Box2 box;
-      for (const Vec2& p : face.rings[k][0]) box.extend(p);
+      const Box2& box = face.boxes[k];
       const double apart = box.exteriorDistance(clear) - 1e-9 * box.volume();
       if (apart < least) least = apart, best = k;
     }

@@ -46,8 +46,8 @@ struct FoundOpenings {
 
 // The doors, windows and passages of walls: the upright rectangles that both faces of a wall leave
 // free, and what stands within its thickness, each told once. It must have been seen: lines of
-// sight go through, or nothing stands before it. Its loop is the rectangle in the face with most
-// surface. Without a scan all gaps are openings.
+// sight go through, or nothing stands before it. Its loop is the rectangle in the face that
+// leaves most free. Without a scan all gaps are openings.
 FoundOpenings find_openings(const World& world, const SeenScan& scan = {},
                             const OpeningOptions& options = {});
 

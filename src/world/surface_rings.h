@@ -21,13 +21,15 @@ inline std::vector<Vec2> ring_of(const World& world, const Loop& loop, const Pla
   return points;
 }
 
-// The loops of a surface in the frame of its plane, the outer one first, vertex for vertex.
-// Their indices must be in range.
-inline geos::Rings rings_of(const World& world, const Surface& surface) {
-  const PlaneFrame frame = rings_frame(world, surface);
+// The loops of a surface in a frame of its plane, the outer one first, vertex for vertex. Their
+// indices must be in range.
+inline geos::Rings rings_of(const World& world, const Surface& surface, const PlaneFrame& frame) {
   geos::Rings rings = {ring_of(world, surface.outer, frame)};
   for (const Loop& hole : surface.holes) rings.push_back(ring_of(world, hole, frame));
   return rings;
+}
+inline geos::Rings rings_of(const World& world, const Surface& surface) {
+  return rings_of(world, surface, rings_frame(world, surface));
 }
 
 // The rings of what has an outer one and holes, by places in a plane, in a frame of that.

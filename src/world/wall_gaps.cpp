@@ -28,12 +28,6 @@ constexpr double kInside = 0.012;        // [m] less of a surface in a row does 
 constexpr std::size_t kMostGaps = 64;    // of a face
 constexpr std::size_t kMostSteps = 400;  // along each axis of a face; of more the longest edges
 
-geos::Rings rings_in(const World& world, const Surface& surface, const PlaneFrame& frame) {
-  geos::Rings rings = {ring_of(world, surface.outer, frame)};
-  for (const Loop& hole : surface.holes) rings.push_back(ring_of(world, hole, frame));
-  return rings;
-}
-
 // How far something is behind a face [m], less than 0 before it.
 struct Depth {
   double low = 1e300, high = -1e300;
@@ -145,7 +139,7 @@ class GapFinder {
         box.sizes().minCoeff() < options_.min_piece ||
         std::binary_search(face_.surfaces.begin(), face_.surfaces.end(), i))
       return;
-    beside_.push_back(rings_in(world_, world_.surfaces[i], face_.frame));
+    beside_.push_back(rings_of(world_, world_.surfaces[i], face_.frame));
     for (const auto& ring : beside_.back()) add_edges(ring, world_.surfaces[i]);
   }
 
@@ -359,10 +353,11 @@ std::vector<WallFace> wall_faces_of(const World& world) {
       face = faces.insert(
           faces.end(),
           {.plane = surface.plane, .frame = upright_frame(surface.plane, world.frame.up, corner)});
-    geos::Rings rings = rings_in(world, surface, face->frame);
-    for (const Vec2& p : rings[0]) face->box.extend(p);
-    for (std::size_t r = 0; r < rings.size(); ++r)
-      face->area += (r == 0 ? 0.5 : -0.5) * std::abs(doubled_area(rings[r]));
+    geos::Rings rings = rings_of(world, surface, face->frame);
+    Box2 box;
+    for (const Vec2& p : rings[0]) box.extend(p);
+    face->box.extend(box), face->boxes.push_back(box);
+    face->area += area(world, surface);
     face->surfaces.push_back(s);
     face->rings.push_back(std::move(rings));
   }

@@ -13,7 +13,7 @@ namespace scanworld {
 
 struct WallGapOptions {
   double min_width = 0.3, min_height = 0.3;  // [m] of a gap
-  double sill = 0.15;          // [m] what ends no higher over the wall's bottom begins at it
+  double sill = 0.15;          // [m] what ends no higher over a floor or the wall's bottom is low
   double min_support = 0.5;    // share of each side of a gap that something is beside
   double min_piece = 0.3;      // [m] of a side of a gap within the wall
   double max_thickness = 0.6;  // [m] of a wall: such sides go no deeper
@@ -23,9 +23,10 @@ struct WallGapOptions {
 // Surfaces that look the same way in one upright plane.
 struct WallFace {
   Plane plane;
-  PlaneFrame frame;                   // upright
-  std::vector<std::size_t> surfaces;  // indices, ascending
-  std::vector<geos::Rings> rings;     // of each, in the frame
+  PlaneFrame frame;                        // upright
+  std::vector<std::size_t> surfaces;       // indices, ascending
+  std::vector<geos::Rings> rings;          // of each, in the frame
+  std::vector<Eigen::AlignedBox2d> boxes;  // around each
   Eigen::AlignedBox2d box;
   double area = 0;  // [m2] of all
 
