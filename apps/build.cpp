@@ -59,7 +59,12 @@ ReconstructOptions resolve_options(const BuildRequest& request) {
   apply_preset(options, request.preset.empty() ? "indoor" : request.preset);
   if (!request.config.empty()) apply_config(options, request.config);
   apply_assignments(options, request.assignments);
-  if (!request.unknown.empty()) options.space.unknown = space::unknown_named(request.unknown);
+  if (!request.unknown.empty()) {
+    options.space.unknown = space::unknown_named(request.unknown);
+    if (options.method == Method::thesis || !options.space.is_on)
+      throw Error(Cause::usage,
+                  "--unknown: surfaces found plane by plane know no unknown space (space.on)");
+  }
   if (!request.floor_tolerance.empty())
     options.floor_tolerance = length_from("--floor-tolerance", request.floor_tolerance);
   options.record = request.record;

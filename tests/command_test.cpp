@@ -525,6 +525,12 @@ TEST_CASE("--unknown closes what a single view left open, or leaves it out behin
       run({"build", folder / "view.ply", "-o", folder / "w", "--unknown", "shut"});
   CHECK(wrong.code == 2);
   CHECK(contains(wrong.err, "--unknown: 'shut' is none of solid, free and open"));
+  for (const char* plane_by_plane : {"--method=thesis", "--preset=fast"}) {
+    const Outcome vain = run(
+        {"build", folder / "view.ply", "-o", folder / "v", "--unknown", "solid", plane_by_plane});
+    CHECK(vain.code == 2);
+    CHECK(contains(vain.err, "--unknown: surfaces found plane by plane know no unknown space"));
+  }
 }
 
 TEST_CASE("scan, build, check: a world scanned back has its main walls again") {
