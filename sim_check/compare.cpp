@@ -30,7 +30,7 @@ std::vector<Criterion> promises_of(const Row& row, const CompareOptions& options
     const Robustness& r = row.robustness;
     double lost = 0;
     for (const Lost& l : r.lost)
-      if (l.speed <= limits.lost_speed) lost += static_cast<double>(l.lost);
+      if (l.speed <= limits.lost_speed) lost += static_cast<double>(l.at.size());
     promises.push_back(
         {fmt::format("robots lost, up to {:g} m/s", limits.lost_speed), "", lost, 0});
     if (r.lanes > 0)
@@ -42,7 +42,7 @@ std::vector<Criterion> promises_of(const Row& row, const CompareOptions& options
       promises.push_back({"places where one gets through a wall", "",
                           static_cast<double>(r.doors->walls_open), 0});
     }
-    promises.push_back({"gaps in the floor", "", static_cast<double>(r.floor.count), 0});
+    promises.push_back({"gaps in the floor", "", static_cast<double>(r.floor.gaps.size()), 0});
     if (r.lidar) promises.push_back({"lidar error, median", "m", r.lidar->median, limits.lidar});
   }
   if (limits.budget > 0 && row.speed.contact)

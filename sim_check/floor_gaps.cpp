@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <queue>
 #include <set>
 
@@ -65,6 +67,37 @@ Mesh touched_mesh(const Place& place) {
   return mesh;
 }
 
+// The solids of a place, found by where they are in plan.
+class Solids {
+ public:
+  void add(Mesh solid) {
+    Box3 box;
+    for (const Vec3& v : solid.vertices) box.extend(v);
+    const auto [x0, y0] = bin_of(box.min());
+    const auto [x1, y1] = bin_of(box.max());
+    for (int x = x0; x <= x1; ++x)
+      for (int y = y0; y <= y1; ++y) bins_[{x, y}].push_back(solids_.size());
+    solids_.push_back({box, std::move(solid)});
+  }
+  bool contain(const Vec3& p) const {
+    const auto bin = bins_.find(bin_of(p));
+    return bin != bins_.end() && std::ranges::any_of(bin->second, [&](std::size_t i) {
+             return solids_[i].box.contains(p) && contains(solids_[i].mesh, p);
+           });
+  }
+
+ private:
+  struct Solid {
+    Box3 box;
+    Mesh mesh;
+  };
+  static std::pair<int, int> bin_of(const Vec3& p) {
+    return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+  }
+  std::vector<Solid> solids_;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> bins_;  // of a metre
+};
+
 // The floor under a place where it is expected to be.
 struct Look {
   Ground ground;
@@ -73,7 +106,9 @@ struct Look {
 
 // What robots touch.
 struct Touched {
-  explicit Touched(const Place& place) : mesh(touched_mesh(place)), rays(mesh) {}
+  explicit Touched(const Place& place) : mesh(touched_mesh(place)), rays(mesh) {
+    for (const ExportBody& body : place.solids) solids.add(mesh_of(body));
+  }
 
   bool is_steep(std::size_t triangle) const {
     const Vec3 n = vector_area(mesh, triangle);
@@ -82,10 +117,13 @@ struct Touched {
 
   Mesh mesh;
   MeshRays rays;
+  Solids solids;
 };
 
 Look look(const Touched& touched, const Vec3& floor) {
-  const auto hit = touched.rays.cast(floor + Vec3(0, 0, kRoom), -Vec3::UnitZ(), kRoom + kDrop);
+  const Vec3 above = floor + Vec3(0, 0, kRoom);
+  if (touched.solids.contain(above)) return {Ground::blocked};
+  const auto hit = touched.rays.cast(above, -Vec3::UnitZ(), kRoom + kDrop);
   if (!hit) return {Ground::gap};
   if (std::abs(hit->distance - kRoom) > kStep || touched.is_steep(hit->triangle))
     return {Ground::blocked};
@@ -177,12 +215,12 @@ FloorGaps find_floor_gaps(const Place& place, const Spots& spots, const PointClo
   const double area = grid.cell() * grid.cell();
   found.drivable = area * static_cast<double>(floor.size());
   found.area = area * static_cast<double>(gaps.size());
-  std::size_t most = 0;
-  for (; !gaps.empty(); ++found.count)
-    if (const auto group = take_group(gaps); group.size() > most) {
-      most = group.size();
-      found.largest = grid.middle(group[0].first, group[0].second, spots.height);
-    }
+  while (!gaps.empty()) {
+    const auto group = take_group(gaps);
+    found.gaps.push_back({grid.middle(group[0].first, group[0].second, spots.height),
+                          area * static_cast<double>(group.size())});
+  }
+  std::ranges::stable_sort(found.gaps, std::greater(), &FloorGap::area);
   return found;
 }
 

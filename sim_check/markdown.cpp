@@ -147,14 +147,14 @@ std::string robustness_table(const Comparison& c) {
     if (r.lost.empty()) continue;
     Cells cells = {row.name};
     for (const Lost& l : r.lost)
-      cells.push_back(percent(static_cast<double>(l.lost) / static_cast<double>(l.robots)));
+      cells.push_back(percent(static_cast<double>(l.at.size()) / static_cast<double>(l.robots)));
     const bool glides = r.lanes > 0;
     cells.push_back(glides ? percent(r.cube.speed_lost) : "-");
     cells.push_back(glides ? short_text(1e3 * r.cube.bump) : "-");
     cells.push_back(glides ? percent(r.ball.speed_lost) : "-");
     cells.push_back(r.doors ? fmt::format("{} of {}", r.doors->passed, r.doors->wide) : "-");
     cells.push_back(r.doors ? fmt::format("{} of {}", r.doors->walls_open, r.doors->walls) : "-");
-    cells.push_back(fmt::format("{} ({:.3f} m2)", r.floor.count, r.floor.area));
+    cells.push_back(fmt::format("{} ({:.3f} m2)", r.floor.gaps.size(), r.floor.area));
     cells.push_back(r.lidar ? short_text(1e3 * r.lidar->median) : "-");
     rows.push_back(cells);
   }
@@ -170,6 +170,25 @@ std::string promise_line(const Criterion& p) {
   };
   return fmt::format("- {}: {}, at most {}: {}\n", p.name, text(*p.value), text(p.limit),
                      p.is_met() ? "kept" : "BROKEN");
+}
+
+// Where to look: gaps in the floor, and the robots that are lost.
+std::string places_of(const Row& row) {
+  constexpr std::size_t kMost = 6;
+  const auto listed = [](const std::vector<Vec3>& places) {
+    std::string text;
+    for (std::size_t i = 0; i < places.size() && i < kMost; ++i)
+      text += fmt::format("{}({:.2f}, {:.2f}, {:.2f})", i ? ", " : "", places[i].x(), places[i].y(),
+                          places[i].z());
+    return text + (places.size() > kMost ? ", ..." : "");
+  };
+  std::string text;
+  for (const Lost& l : row.robustness.lost)
+    if (!l.at.empty())
+      text += fmt::format("  - lost at {:g} m/s and {:g} Hz: {}\n", l.speed, l.rate, listed(l.at));
+  std::vector<Vec3> gaps;
+  for (const FloorGap& gap : row.robustness.floor.gaps) gaps.push_back(gap.at);
+  return gaps.empty() ? text : text + fmt::format("  - gaps at: {}\n", listed(gaps));
 }
 
 }  // namespace
@@ -211,6 +230,7 @@ std::string markdown_of(const Comparison& c) {
     if (row.promises.empty()) continue;
     text += row.name + "\n\n";
     for (const Criterion& p : row.promises) text += promise_line(p);
+    text += places_of(row);
     for (const std::string& place : row.in_the_way) text += "  - " + place + "\n";
     text += "\n";
   }

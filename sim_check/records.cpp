@@ -56,10 +56,28 @@ Json speed_json(const Speed& s) {
   return json;
 }
 
+Json at(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+Json floor_json(const FloorGaps& floor) {
+  Json places = Json::array();
+  for (const FloorGap& gap : floor.gaps) places.push_back({{"at", at(gap.at)}, {"area", gap.area}});
+  return {{"drivable", floor.drivable},
+          {"gaps", floor.gaps.size()},
+          {"gap_area", floor.area},
+          {"gaps_at", places}};
+}
+
 Json robustness_json(const Robustness& r) {
   Json lost = Json::array();
-  for (const Lost& l : r.lost)
-    lost.push_back({{"speed", l.speed}, {"rate", l.rate}, {"robots", l.robots}, {"lost", l.lost}});
+  for (const Lost& l : r.lost) {
+    Json places = Json::array();
+    for (const Vec3& p : l.at) places.push_back(at(p));
+    lost.push_back({{"speed", l.speed},
+                    {"rate", l.rate},
+                    {"robots", l.robots},
+                    {"lost", l.at.size()},
+                    {"lost_at", places}});
+  }
   Json json = {{"lost", lost}, {"lanes", r.lanes}};
   json["cube"] = {{"speed_lost", r.cube.speed_lost}, {"bump", r.cube.bump}};
   json["ball"] = {{"speed_lost", r.ball.speed_lost}, {"bump", r.ball.bump}};
@@ -67,11 +85,7 @@ Json robustness_json(const Robustness& r) {
     json["doors"] = {{"wide", r.doors->wide},       {"passed", r.doors->passed},
                      {"blocked", r.doors->blocked}, {"narrow", r.doors->narrow},
                      {"walls", r.doors->walls},     {"walls_open", r.doors->walls_open}};
-  const Vec3& at = r.floor.largest;
-  json["floor"] = {{"drivable", r.floor.drivable},
-                   {"gaps", r.floor.count},
-                   {"gap_area", r.floor.area},
-                   {"largest_at", {at.x(), at.y(), at.z()}}};
+  json["floor"] = floor_json(r.floor);
   if (r.lidar)
     json["lidar"] = {{"rays", r.lidar->rays},
                      {"median", r.lidar->median},
@@ -118,7 +132,7 @@ std::string robustness_lines(const std::string& name, const Robustness& r) {
   std::string text;
   for (const Lost& l : r.lost)
     text += value_line(name, fmt::format("lost_{:g}_m/s_{:g}_Hz", l.speed, l.rate), "",
-                       static_cast<double>(l.lost) / static_cast<double>(l.robots));
+                       static_cast<double>(l.at.size()) / static_cast<double>(l.robots));
   text += value_line(name, "cube_speed_lost", "", r.cube.speed_lost) +
           value_line(name, "ball_speed_lost", "", r.ball.speed_lost);
   if (r.doors)

@@ -35,6 +35,7 @@ class Watch {
   }
   void restart(const Vec3& start) { last_ = start, way_ = {start}, beyond_ = 0; }
   bool is_lost() const { return is_lost_; }
+  const Vec3& last() const { return last_; }
 
  private:
   static constexpr double kReturn = 0.25;           // [s]
@@ -93,8 +94,10 @@ Lost drive_at(const Place& place, const MeshRays& seen, const Spots& spots,
     for (std::size_t i = 0; i < starts.size(); ++i)
       watches[i].see(simulation->position(i), 1 / rate);
   }
-  return {speed, rate, starts.size(),
-          static_cast<std::size_t>(std::ranges::count_if(watches, &Watch::is_lost))};
+  Lost lost{.speed = speed, .rate = rate, .robots = starts.size()};
+  for (const Watch& watch : watches)
+    if (watch.is_lost()) lost.at.push_back(watch.last());
+  return lost;
 }
 
 Glide glide(const Place& place, const std::vector<Lane>& lanes, const EngineMaker& engine,

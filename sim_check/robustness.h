@@ -38,7 +38,8 @@ struct RobustnessOptions {
 // Robots driven at a speed, and how many went through a surface.
 struct Lost {
   double speed = 0, rate = 0;
-  std::size_t robots = 0, lost = 0;
+  std::size_t robots = 0;
+  std::vector<Vec3> at;  // where the lost ones last were in the place
 };
 
 // Of a body that moves at 1 m/s over a level floor, without friction.
@@ -55,11 +56,14 @@ struct Doors {
 };
 
 // Gaps in the floor, narrower than a wheelbase, between places where robots can drive.
+struct FloorGap {
+  Vec3 at = Vec3::Zero();  // one place in it
+  double area = 0;         // [m2]
+};
 struct FloorGaps {
-  double drivable = 0;  // [m2] that was looked at
-  double area = 0;      // [m2] of the gaps
-  std::size_t count = 0;
-  Vec3 largest = Vec3::Zero();  // where
+  double drivable = 0;         // [m2] that was looked at
+  double area = 0;             // [m2] of all gaps
+  std::vector<FloorGap> gaps;  // the largest first
 };
 
 // Of ranges that a scan has, against the engine's [m].
