@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSameWay = 0.17;  // cosine from which two faces look the same way (80 degrees)
 constexpr double kOpposed = -0.7;  // cosine up to which they are opposed (135 degrees)
+constexpr double kParallel = -0.985;  // and the two sides of one thing (170 degrees)
 
 }  // namespace
 
@@ -73,7 +74,7 @@ void Clearance::fit(Slab& slab) const {
       const double cosine = faces_[k].normal().dot(normal);
       if (cosine > kSameWay || (cosine < kOpposed) != opposed) continue;
       const auto found = find(slab, k);
-      if (!found || (!opposed && found->deepest < options_.poke)) continue;
+      if (!found || (cosine > kParallel && found->deepest < options_.poke)) continue;
       std::size_t best = 0;
       for (std::size_t i = 1; i < slab.sides.size(); ++i)
         if (found->cut[i] - slab.sides[i].slack < found->cut[best] - slab.sides[best].slack)
