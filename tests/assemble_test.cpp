@@ -47,6 +47,20 @@ TEST_CASE("floor, ceiling, wall and table are told apart by slope, facing and pl
   for (std::size_t i = 0; i < 6; ++i) CHECK(world.surfaces[i].kind == expected[i]);
 }
 
+TEST_CASE("the floor of the next room is one, whatever the outline around a corner is") {
+  // An L; its bounding box has the other room in it.
+  FoundSurface l = level(0, 0, 5, 5, 0, true);
+  l.outer = {{0, 0, 0}, {5, 0, 0}, {5, 2, 0}, {2, 2, 0}, {2, 5, 0}, {0, 5, 0}};
+  for (const double step : {0.0002, 0.02, 0.1, 0.4}) {
+    const World world = assemble_world({l, level(2.1, 2.1, 5, 5, step, true)}, {});
+    CHECK(world.surfaces[1].kind == Kind::floor);
+  }
+  const World stage = assemble_world(
+      {level(0, 0, 9, 9, 0, true), level(2, 2, 5, 5, 0.4, true), level(6, 0, 7, 1, 0.4, true)}, {});
+  CHECK(stage.surfaces[1].kind == Kind::other);
+  CHECK(stage.surfaces[2].kind == Kind::other);
+}
+
 TEST_CASE("a place that is tilted, or in a camera's frame, is classified by its own up") {
   const FoundSurface floor = level(0, 0, 5, 4, 0, true),
                      wall{.plane = {Vec3::UnitY(), 0},

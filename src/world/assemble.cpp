@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "surface_rings.h"
 #include "vertex_pool.h"
 
 namespace scanworld {
@@ -59,6 +60,11 @@ void turn_over(Surface& surface) {
     std::reverse(part.outer.begin(), part.outer.end());
     for (auto& hole : part.holes) std::reverse(hole.begin(), hole.end());
   }
+}
+
+bool is_within_outline(const World& world, const Surface& surface, const Vec3& p) {
+  const PlaneFrame frame = rings_frame(world, surface);
+  return is_inside({ring_of(world, surface.outer, frame)}, frame.to_plane(p));
 }
 
 }  // namespace
@@ -124,9 +130,11 @@ void classify(World& world, const ClassifyOptions& options) {
       if (&other == &s || rise(other) <= level || area(world, other) <= area(world, s))
         return false;
       const double above = other.plane.signed_distance(middle) / rise(other);
+      if (above < options.min_table_height || above > options.max_table_height) return false;
+      const Vec3 below = middle - above * world.frame.up;
+      if (area(world, s) > options.max_table_area) return is_within_outline(world, other, below);
       // Its bounding box is enough: a floor ends before what stands on it and hides it.
-      return above > 0 && above < options.max_table_height &&
-             box_of(world, other).exteriorDistance(Vec3(middle - above * world.frame.up)) < 0.1;
+      return box_of(world, other).exteriorDistance(below) < 0.1;
     });
   };
   for (Surface& s : world.surfaces) {

@@ -24,8 +24,10 @@ struct ClassifyOptions {
   double max_tilt =
       0.44;  // [rad] floors, ceilings and walls are off level or upright by less (25 degrees)
   double min_wall_height = 1.0;  // [m] upright surfaces that are lower are no walls
-  double max_table_height =
-      2.0;  // [m] a level surface that stands no higher than this over a larger one is no floor
+  // [m] A level surface that stands so high over a larger one is no floor. What is lower is a floor
+  // of its own, as in the next room.
+  double min_table_height = 0.03, max_table_height = 2.0;
+  double max_table_area = 4.0;  // [m2] what is larger stands only where the other is all around it
 };
 
 // Tells the kind of each surface by its slope, facing and place: floors are level, face up and have
