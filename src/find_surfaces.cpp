@@ -18,10 +18,15 @@ using namespace surface;
 namespace {
 
 // What planes say about up, by the number of their points.
-std::vector<Facing> facings_of(const std::vector<Plane>& planes, const Members& members) {
+std::vector<Facing> facings_of(const PointCloud& cloud, const std::vector<Plane>& planes,
+                               const Members& members) {
   std::vector<Facing> facings;
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    facings.push_back({planes[k].normal, static_cast<double>(members.of(k).size())});
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const double points = static_cast<double>(members.of(k).size());
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t i : members.of(k)) sum += cloud.points[i].cast<double>();
+    facings.push_back({planes[k].normal, points, sum / std::max(1.0, points)});
+  }
   return facings;
 }
 
@@ -148,7 +153,7 @@ class SurfaceFinder {
   void cover() {
     patches_ = log_.run("Covering planes", "points -> patches", in_.cloud, [&] {
       members_ = group_points(result_.labels, in_.planes.size());
-      up_ = find_frame(in_.cloud, facings_of(in_.planes, members_)).up;
+      up_ = find_frame(in_.cloud, facings_of(in_.cloud, in_.planes, members_)).up;
       std::vector<Patch> found =
           find_patches(in_.cloud, members_, in_.planes, in_.voxel, options_.patch);
       rays_.emplace(found);

@@ -110,7 +110,7 @@ surface::Surroundings surroundings_of(const rival::Grid& grid, std::vector<std::
 std::vector<Facing> facings_of(const rival::Clustering& clustering) {
   std::vector<Facing> facings;
   for (const rival::Cluster& cluster : clustering.clusters)
-    facings.push_back({cluster.fit.plane.normal, cluster.moments.n});
+    facings.push_back({cluster.fit.plane.normal, cluster.moments.n, cluster.moments.mean()});
   return facings;
 }
 

@@ -107,6 +107,28 @@ TEST_CASE("up is the axis where nothing is there, where all is near it, or where
   CHECK_FALSE(find_up(rocks, Vec3::UnitZ()).is_found);
 }
 
+TEST_CASE("of a scanner that was not levelled up is square to the floor, however warped the rest is") {
+  const auto warped = [](double by) {
+    std::vector<Facing> facings = {{Vec3::UnitZ(), 8, {0, 0, -1}},
+                                   {tilt(0.05, 1) * -Vec3::UnitZ(), 10, {0, 0, 2}},
+                                   {tilt(0.05, M_PI / 2) * Vec3::UnitX(), 9, {3, 0, 0}},
+                                   {tilt(0.05, 0) * Vec3::UnitY(), 9, {0, 3, 0}}};
+    turn(facings, tilt(by, 2));
+    for (Facing& f : facings) f.middle = tilt(by, 2) * f.middle;
+    return find_up(facings, Vec3::UnitZ());
+  };
+  const Up tilted = warped(0.2);
+  CHECK(angle_between(tilted.direction, tilt(0.2, 2) * Vec3::UnitZ()) < 1e-9);
+  CHECK(tilted.angle == doctest::Approx(0.2));
+  // A floor that slopes in a scan that is level but for it.
+  const Up level = find_up({{tilt(0.05, 1) * Vec3::UnitZ(), 8, {0, 0, -1}},
+                            {-Vec3::UnitZ(), 10, {0, 0, 2}},
+                            {Vec3::UnitX(), 9, {3, 0, 0}},
+                            {Vec3::UnitY(), 9, {0, 3, 0}}},
+                           Vec3::UnitZ());
+  CHECK(level.direction == Vec3::UnitZ());
+}
+
 TEST_CASE("a warped scan has the up that most of it is near to") {
   std::vector<Facing> facings = {{Vec3::UnitZ(), 10},
                                  {tilt(0.12, 0) * -Vec3::UnitZ(), 8},

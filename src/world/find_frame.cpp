@@ -45,8 +45,12 @@ std::string why_up(const Up& up, const Vec3& axis, const char* name) {
 
 std::vector<Facing> facings_of(const std::vector<FoundSurface>& surfaces) {
   std::vector<Facing> facings;
-  for (const FoundSurface& s : surfaces)
-    facings.push_back({s.plane.normal, std::max(0.0, area_of(s)) * s.support.coverage});
+  for (const FoundSurface& s : surfaces) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& v : s.outer) sum += v;
+    facings.push_back({s.plane.normal, std::max(0.0, area_of(s)) * s.support.coverage,
+                       sum / static_cast<double>(s.outer.size())});
+  }
   return facings;
 }
 

@@ -4,8 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace scanworld {
 
@@ -147,12 +149,35 @@ class UpFinder {
   double total_weight_ = 0;
 };
 
+// The normal of the floor: of the level planes in the lower half the largest.
+std::optional<Vec3> floor_of(const std::vector<Facing>& facings, const Vec3& up, double tolerance) {
+  constexpr double kLarge = 0.1;  // of the weight of the largest level plane, to count for the halves
+  std::vector<Facing> level;
+  for (const Facing& f : facings)
+    if (const Slope slope = slope_of(f.normal, up);
+        f.weight > 0 && slope.is_level && slope.angle < tolerance)
+      level.push_back({f.normal.dot(up) > 0 ? f.normal : Vec3(-f.normal), f.weight, f.middle});
+  if (level.empty()) return std::nullopt;
+  const double most = std::ranges::max(level, {}, &Facing::weight).weight;
+  std::erase_if(level, [&](const Facing& f) { return f.weight < kLarge * most; });
+  const auto height = [&](const Facing& f) { return f.middle.dot(up); };
+  const auto [low, high] = std::ranges::minmax(level, {}, height);
+  const double half = (height(low) + height(high)) / 2;
+  std::erase_if(level, [&](const Facing& f) { return height(f) > half; });
+  return std::ranges::max(level, {}, &Facing::weight).normal;
+}
+
 }  // namespace
 
 Up find_up(const std::vector<Facing>& facings, const Vec3& axis, const UpOptions& options) {
   Up up;
   for (int step = 1; !up.is_found && step * options.tolerance <= options.max_tolerance; ++step)
     up = UpFinder(facings, axis, options, step * options.tolerance).find();
+  if (up.is_found && up.angle > options.max_unlevelled)
+    if (const auto floor = floor_of(facings, up.direction, options.max_tolerance)) {
+      up.direction = *floor;
+      up.angle = angle_between(up.direction, axis);
+    }
   return up;
 }
 

@@ -12,6 +12,7 @@ namespace scanworld {
 struct Facing {
   Vec3 normal;        // unit, to either side
   double weight = 0;  // how much was seen of it, 0 or more: its area, or its points
+  Vec3 middle = Vec3::Zero();
 };
 
 struct UpOptions {
@@ -25,6 +26,7 @@ struct UpOptions {
                                 // the axis
   double min_angle = 0.0009;    // [rad] what is nearer to the axis is the axis (0.05 degrees):
                                 // buildings are no better
+  double max_unlevelled = 0.0175;  // [rad] a scanner that was levelled is off by less (1 degree)
 };
 
 struct Up {
@@ -38,7 +40,9 @@ struct Up {
 
 // The direction near the axis that most planes are level or upright to: floors and ceilings are
 // square to it, walls along it. It is the one with the least sum of weighted angles, so that a
-// bowed ceiling or a ramp turns it as little as a few outliers move a median.
+// bowed ceiling or a ramp turns it as little as a few outliers move a median. Of a scanner that was
+// not levelled, whose scan may be warped, it is square to the floor if that is near to it: what
+// stands on the floor must not slide.
 Up find_up(const std::vector<Facing>& facings, const Vec3& axis, const UpOptions& options = {});
 
 }  // namespace scanworld
