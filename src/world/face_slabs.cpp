@@ -18,7 +18,9 @@ constexpr double kSquare = 0.985;          // cosine: two faces at a right angle
 constexpr double kClosed = 0.7;            // of a face's outline that must have neighbours
 constexpr double kMinBeside = 0.02;        // [m] lower sides tell nothing
 constexpr double kSameFace = 0.9999;       // cosine between a face and the slab's that covers it
-constexpr std::size_t kBoxesForPrism = 4;  // robots at 60 Hz sink into prisms, not into boxes
+// Of boxes and prisms instead of a prism. Robots at 60 Hz sink into prisms, not into boxes, and they
+// drive into walls.
+constexpr std::size_t kMostForPrism = 4, kMostForWall = 32;
 constexpr double kRecess = 0.002;          // [m] it may be so far inside
 
 // How far the neighbour at a convex corner goes on backwards [m].
@@ -80,7 +82,8 @@ class Cover {
     std::vector<Slab> rest = make_prisms(covered);
     if (rest.empty()) return boxes;
     std::vector<Slab> prisms = make_prisms(done_);
-    if (kBoxesForPrism * prisms.size() < boxes.size() + rest.size()) return prisms;
+    const std::size_t most = face_.surface->kind == Kind::wall ? kMostForWall : kMostForPrism;
+    if (most * prisms.size() < boxes.size() + rest.size()) return prisms;
     boxes.insert(boxes.end(), rest.begin(), rest.end());
     return boxes;
   }

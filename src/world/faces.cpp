@@ -15,6 +15,8 @@ namespace {
 constexpr double kSameDirection = 0.01;  // [rad] edges that are parallel or square to each other
 constexpr double kMinCornerSine = 0.17;  // of the angle at a corner (10 degrees)
 constexpr double kFlat = 0.9986;         // cosine between faces that go on flat (3 degrees)
+constexpr double kFoot = 0.94;           // cosine between down and out of an edge below (20 degrees)
+constexpr double kFootWeight = 3;        // of an edge below, as robots come there
 
 // The angle of an edge, modulo a quarter turn [rad].
 double quarter_angle(const Vec2& way) {
@@ -23,15 +25,17 @@ double quarter_angle(const Vec2& way) {
 }
 
 // The direction that most edges have or are square to: the mean of those around the best of them.
-double main_angle(const geos::Rings& rings) {
+// `down` is zero where there is none in the plane.
+double main_angle(const geos::Rings& rings, const Vec2& down) {
   struct Way {
     double angle, length;
   };
   std::vector<Way> ways;
   for (const auto& ring : rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 way = ring[(i + 1) % ring.size()] - ring[i];
-      ways.push_back({quarter_angle(way), way.norm()});
+      const Vec2 way = ring[(i + 1) % ring.size()] - ring[i], out(way.y(), -way.x());
+      const bool is_foot = out.dot(down) > kFoot * way.norm();
+      ways.push_back({quarter_angle(way), (is_foot ? kFootWeight : 1) * way.norm()});
     }
   double best = 0, most = 0;
   for (const Way& candidate : ways) {
@@ -75,7 +79,9 @@ std::vector<Face> faces_of(const World& world) {
     face.frame = rings_frame(world, s);
     for (int v : s.outer) face.box.extend(world.vertices[static_cast<std::size_t>(v)]);
     if (!geos::why_invalid(face.rings)) face.area = area(world, s);
-    const double angle = main_angle(face.rings);
+    const Vec3& up = world.frame.up;
+    const double angle =
+        main_angle(face.rings, -Vec2(up.dot(face.frame.u), up.dot(face.frame.v)).stableNormalized());
     for (auto& ring : face.rings) ring = turned(ring, angle);
     const Vec3 u = std::cos(angle) * face.frame.u + std::sin(angle) * face.frame.v;
     face.frame = {face.frame.origin, u, s.plane.normal.cross(u)};

@@ -13,7 +13,7 @@ namespace scanworld {
 // A surface with what is asked of it often.
 struct Face {
   const Surface* surface = nullptr;
-  PlaneFrame frame;   // u along most of its edges, or square to them
+  PlaneFrame frame;   // u along most of its edges, those below first, or square to them
   geos::Rings rings;  // in that frame, vertex for vertex
   Box3 box;
   double area = 0;  // [m2]; 0 where it is no valid polygon

@@ -173,11 +173,12 @@ Up find_up(const std::vector<Facing>& facings, const Vec3& axis, const UpOptions
   Up up;
   for (int step = 1; !up.is_found && step * options.tolerance <= options.max_tolerance; ++step)
     up = UpFinder(facings, axis, options, step * options.tolerance).find();
-  if (up.is_found && up.angle > options.max_unlevelled)
-    if (const auto floor = floor_of(facings, up.direction, options.max_tolerance)) {
+  if (!up.is_found || up.angle <= options.max_unlevelled) return up;
+  constexpr int kMostRounds = 3;  // the floor may be near to a ceiling that is near to up
+  for (int round = 0; round < kMostRounds; ++round)
+    if (const auto floor = floor_of(facings, up.direction, options.max_tolerance))
       up.direction = *floor;
-      up.angle = angle_between(up.direction, axis);
-    }
+  up.angle = angle_between(up.direction, axis);
   return up;
 }
 
