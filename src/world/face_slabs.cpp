@@ -14,14 +14,14 @@ namespace scanworld {
 
 namespace {
 
-constexpr double kSquare = 0.985;          // cosine: two faces at a right angle, within 10 degrees
-constexpr double kClosed = 0.7;            // of a face's outline that must have neighbours
-constexpr double kMinBeside = 0.02;        // [m] lower sides tell nothing
-constexpr double kSameFace = 0.9999;       // cosine between a face and the slab's that covers it
-// Of boxes and prisms instead of a prism. Robots at 60 Hz sink into prisms, not into boxes, and they
-// drive into walls.
+constexpr double kSquare = 0.985;     // cosine: two faces at a right angle, within 10 degrees
+constexpr double kClosed = 0.7;       // of a face's outline that must have neighbours
+constexpr double kMinBeside = 0.02;   // [m] lower sides tell nothing
+constexpr double kSameFace = 0.9999;  // cosine between a face and the slab's that covers it
+// Of boxes and prisms instead of a prism. Robots at 60 Hz sink into prisms, not into boxes, and
+// they drive into walls.
 constexpr std::size_t kMostForPrism = 4, kMostForWall = 32;
-constexpr double kRecess = 0.002;          // [m] it may be so far inside
+constexpr double kRecess = 0.002;  // [m] it may be so far inside
 
 // How far the neighbour at a convex corner goes on backwards [m].
 double extent_behind(const Face& face, const Face& neighbour) {

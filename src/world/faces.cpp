@@ -15,8 +15,8 @@ namespace {
 constexpr double kSameDirection = 0.01;  // [rad] edges that are parallel or square to each other
 constexpr double kMinCornerSine = 0.17;  // of the angle at a corner (10 degrees)
 constexpr double kFlat = 0.9986;         // cosine between faces that go on flat (3 degrees)
-constexpr double kFoot = 0.94;           // cosine between down and out of an edge below (20 degrees)
-constexpr double kFootWeight = 3;        // of an edge below, as robots come there
+constexpr double kFoot = 0.94;     // cosine between down and out of an edge below (20 degrees)
+constexpr double kFootWeight = 3;  // of an edge below, as robots come there
 
 // The angle of an edge, modulo a quarter turn [rad].
 double quarter_angle(const Vec2& way) {
@@ -80,8 +80,8 @@ std::vector<Face> faces_of(const World& world) {
     for (int v : s.outer) face.box.extend(world.vertices[static_cast<std::size_t>(v)]);
     if (!geos::why_invalid(face.rings)) face.area = area(world, s);
     const Vec3& up = world.frame.up;
-    const double angle =
-        main_angle(face.rings, -Vec2(up.dot(face.frame.u), up.dot(face.frame.v)).stableNormalized());
+    const double angle = main_angle(
+        face.rings, -Vec2(up.dot(face.frame.u), up.dot(face.frame.v)).stableNormalized());
     for (auto& ring : face.rings) ring = turned(ring, angle);
     const Vec3 u = std::cos(angle) * face.frame.u + std::sin(angle) * face.frame.v;
     face.frame = {face.frame.origin, u, s.plane.normal.cross(u)};

@@ -151,7 +151,8 @@ class UpFinder {
 
 // The normal of the floor: of the level planes in the lower half the largest.
 std::optional<Vec3> floor_of(const std::vector<Facing>& facings, const Vec3& up, double tolerance) {
-  constexpr double kLarge = 0.1;  // of the weight of the largest level plane, to count for the halves
+  constexpr double kLarge =
+      0.1;  // of the weight of the largest level plane, to count for the halves
   std::vector<Facing> level;
   for (const Facing& f : facings)
     if (const Slope slope = slope_of(f.normal, up);
