@@ -116,13 +116,14 @@ class OpeningFinder {
            (gap.is_low ? !is_niche(face, gap) : is_in_wall(face, gap));
   }
 
-  // Whether a gap is beside a part of the face that is as large: the bays of a shelf are beside the
-  // fronts of what stands in it.
+  // Whether a gap is beside a part of the face that is as large, or in one of half of that: the bays
+  // of a shelf are beside the fronts of what stands in it.
   bool is_in_wall(const WallFace& face, const WallGap& gap) const {
     for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
       const Surface& surface = world_.surfaces[face.surfaces[k]];
+      const double least = gap.clear.volume() * (face.boxes[k].contains(gap.clear) ? 0.5 : 1.0);
       if (surface.kind == Kind::wall && face.boxes[k].exteriorDistance(gap.clear) < kAside &&
-          area(world_, surface) >= gap.clear.volume())
+          area(world_, surface) >= least)
         return true;
     }
     return false;
