@@ -25,6 +25,7 @@ constexpr double kRoom = 0.4;        // [m] from a wall, so far a floor goes at 
 constexpr double kFloor = 2;         // [m2] smaller ones may be tables
 constexpr double kBesideCosine = 0.95, kClose = 0.1;  // [m] of what closes a gap of a face
 constexpr double kInside = 0.012;        // [m] less of a surface in a row does not close it
+constexpr double kNearSide = 0.03;       // [m] off a side of a gap, where what is beside it begins
 constexpr std::size_t kMostGaps = 64;    // of a face
 constexpr std::size_t kMostSteps = 400;  // along each axis of a face; of more the longest edges
 
@@ -259,10 +260,14 @@ class GapFinder {
 
   double support_of(const Cells& c, Edge edge) const {
     return share_of(c, edge, [&](int axis, std::size_t border, std::size_t i, bool goes_up) {
-      if (is_walled(axis, border, i)) return true;
-      if (goes_up ? border == steps_[axis].size() - 1 : border == 0) return false;
-      const std::size_t beside = goes_up ? border : border - 1;
-      return filled_[axis == 0 ? cell(beside, i) : cell(i, beside)] != 0;
+      const std::vector<double>& along = steps_[axis];
+      for (std::size_t at = border; std::abs(along[at] - along[border]) < kNearSide;) {
+        if (is_walled(axis, at, i)) return true;
+        if (goes_up ? at == along.size() - 1 : at == 0) return false;
+        const std::size_t beside = goes_up ? at++ : --at;
+        if (filled_[axis == 0 ? cell(beside, i) : cell(i, beside)]) return true;
+      }
+      return false;
     });
   }
 
