@@ -23,6 +23,13 @@ PointCloud brought(const PointCloud& scan, const Frame& to) {
   return cloud;
 }
 
+// Tells places in the coordinates that a world's own file has.
+void tell_as_built(Robustness& found, const Frame& from, const Frame& built) {
+  const auto turn = [&](Vec3& p) { p = built.to_world(from.to_scan(p)); };
+  for (Lost& lost : found.lost) std::ranges::for_each(lost.at, turn);
+  for (FloorGap& gap : found.floor.gaps) turn(gap.at);
+}
+
 std::vector<Criterion> promises_of(const Row& row, const CompareOptions& options) {
   const PromiseOptions& limits = options.promises;
   std::vector<Criterion> promises;
@@ -149,6 +156,8 @@ Comparison compare(std::vector<Place> places, const PointCloud* scan, const Comp
   if (options.with_robustness)
     trust = measure_robustness(places, spots, engine, scan ? &cloud : nullptr, robustness,
                                part(0, middle));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].world) tell_as_built(trust[i], frame, places[i].built);
   places.push_back({.name = "plane", .sort = Sort::plane, .height = spots.height});
   places.push_back({.name = "empty", .sort = Sort::empty});
   trust.resize(places.size());

@@ -39,7 +39,7 @@ struct RobustnessOptions {
 struct Lost {
   double speed = 0, rate = 0;
   std::size_t robots = 0;
-  std::vector<Vec3> at;  // where the lost ones last were in the place
+  std::vector<Vec3> at;  // where the lost ones last were right
 };
 
 // Of a body that moves at 1 m/s over a level floor, without friction.
