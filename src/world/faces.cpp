@@ -16,6 +16,7 @@ constexpr double kSameDirection = 0.01;  // [rad] edges that are parallel or squ
 constexpr double kMinCornerSine = 0.17;  // of the angle at a corner (10 degrees)
 constexpr double kFlat = 0.9986;         // cosine between faces that go on flat (3 degrees)
 constexpr double kFoot = 0.94;     // cosine between down and out of an edge below (20 degrees)
+constexpr double kRight = 0.75;    // of the outline of a polygon whose corners are mostly right
 constexpr double kFootWeight = 3;  // of an edge below, as robots come there
 
 // The angle of an edge, modulo a quarter turn [rad].
@@ -24,29 +25,41 @@ double quarter_angle(const Vec2& way) {
   return angle < 0 ? angle + M_PI / 2 : angle;
 }
 
-// The direction that most edges have or are square to: the mean of those around the best of them.
-// `down` is zero where there is none in the plane.
-double main_angle(const geos::Rings& rings, const Vec2& down) {
-  struct Way {
-    double angle, length;
-  };
-  std::vector<Way> ways;
-  for (const auto& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 way = ring[(i + 1) % ring.size()] - ring[i], out(way.y(), -way.x());
-      const bool is_foot = out.dot(down) > kFoot * way.norm();
-      ways.push_back({quarter_angle(way), (is_foot ? kFootWeight : 1) * way.norm()});
-    }
-  double best = 0, most = 0;
+struct Way {
+  double angle, length;
+};
+
+// The direction that most of some edges have or are square to, and the length of these: the mean of
+// those around the best of them.
+Way most_common(const std::vector<Way>& ways) {
+  Way best{0, 0};
   for (const Way& candidate : ways) {
     double length = 0, turn = 0;
     for (const Way& way : ways) {
       const double off = std::remainder(way.angle - candidate.angle, M_PI / 2);
       if (std::abs(off) < kSameDirection) length += way.length, turn += way.length * off;
     }
-    if (length > most) most = length, best = candidate.angle + turn / length;
+    if (length > best.length) best = {candidate.angle + turn / length, length};
   }
   return best;
+}
+
+// The direction of most edges of a polygon; where that are few, those below count for more. `down`
+// is zero where there is none in the plane.
+double main_angle(const geos::Rings& rings, const Vec2& down) {
+  std::vector<Way> ways, with_feet;
+  double around = 0;
+  for (const auto& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 way = ring[(i + 1) % ring.size()] - ring[i], out(way.y(), -way.x());
+      const double length = way.norm();
+      const bool is_foot = out.dot(down) > kFoot * length;
+      ways.push_back({quarter_angle(way), length});
+      with_feet.push_back({ways.back().angle, (is_foot ? kFootWeight : 1) * length});
+      around += length;
+    }
+  const Way most = most_common(ways);
+  return most.length >= kRight * around ? most.angle : most_common(with_feet).angle;
 }
 
 std::vector<Vec2> turned(const std::vector<Vec2>& ring, double angle) {
