@@ -27,39 +27,38 @@ double quarter_angle(const Vec2& way) {
 
 struct Way {
   double angle, length;
+  bool is_foot;  // of an edge below
 };
 
-// The direction that most of some edges have or are square to, and the length of these: the mean of
-// those around the best of them.
-Way most_common(const std::vector<Way>& ways) {
-  Way best{0, 0};
+// The direction that most edges have or are square to, and the length of these: the mean of those
+// around the best of them.
+std::pair<double, double> most_common(const std::vector<Way>& ways, double foot_weight) {
+  const auto weight = [&](const Way& way) { return (way.is_foot ? foot_weight : 1) * way.length; };
+  double best = 0, most = 0;
   for (const Way& candidate : ways) {
     double length = 0, turn = 0;
     for (const Way& way : ways) {
       const double off = std::remainder(way.angle - candidate.angle, M_PI / 2);
-      if (std::abs(off) < kSameDirection) length += way.length, turn += way.length * off;
+      if (std::abs(off) < kSameDirection) length += weight(way), turn += weight(way) * off;
     }
-    if (length > best.length) best = {candidate.angle + turn / length, length};
+    if (length > most) most = length, best = candidate.angle + turn / length;
   }
-  return best;
+  return {best, most};
 }
 
 // The direction of most edges of a polygon; where that are few, those below count for more. `down`
 // is zero where there is none in the plane.
 double main_angle(const geos::Rings& rings, const Vec2& down) {
-  std::vector<Way> ways, with_feet;
+  std::vector<Way> ways;
   double around = 0;
   for (const auto& ring : rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec2 way = ring[(i + 1) % ring.size()] - ring[i], out(way.y(), -way.x());
-      const double length = way.norm();
-      const bool is_foot = out.dot(down) > kFoot * length;
-      ways.push_back({quarter_angle(way), length});
-      with_feet.push_back({ways.back().angle, (is_foot ? kFootWeight : 1) * length});
-      around += length;
+      ways.push_back({quarter_angle(way), way.norm(), out.dot(down) > kFoot * way.norm()});
+      around += way.norm();
     }
-  const Way most = most_common(ways);
-  return most.length >= kRight * around ? most.angle : most_common(with_feet).angle;
+  const auto [angle, length] = most_common(ways, 1);
+  return length >= kRight * around ? angle : most_common(ways, kFootWeight).first;
 }
 
 std::vector<Vec2> turned(const std::vector<Vec2>& ring, double angle) {
