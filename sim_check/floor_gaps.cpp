@@ -60,24 +60,24 @@ class Grid {
   std::vector<Ground> cells_;
 };
 
-Mesh touched_mesh(const Place& place) {
-  if (place.solids.empty()) return place.seen;
-  Mesh mesh;
-  for (const ExportBody& body : place.solids) append(mesh, mesh_of(body));
-  return mesh;
-}
-
 // The solids of a place, found by where they are in plan.
 class Solids {
  public:
-  void add(Mesh solid) {
-    Box3 box;
-    for (const Vec3& v : solid.vertices) box.extend(v);
-    const auto [x0, y0] = bin_of(box.min());
-    const auto [x1, y1] = bin_of(box.max());
-    for (int x = x0; x <= x1; ++x)
-      for (int y = y0; y <= y1; ++y) bins_[{x, y}].push_back(solids_.size());
-    solids_.push_back({box, std::move(solid)});
+  explicit Solids(const Place& place) {
+    for (const ExportBody& body : place.solids) {
+      Solid solid{{}, mesh_of(body)};
+      for (const Vec3& v : solid.mesh.vertices) solid.box.extend(v);
+      const auto [x0, y0] = bin_of(solid.box.min());
+      const auto [x1, y1] = bin_of(solid.box.max());
+      for (int x = x0; x <= x1; ++x)
+        for (int y = y0; y <= y1; ++y) bins_[{x, y}].push_back(solids_.size());
+      solids_.push_back(std::move(solid));
+    }
+  }
+  Mesh mesh() const {
+    Mesh all;
+    for (const Solid& solid : solids_) append(all, solid.mesh);
+    return all;
   }
   bool contain(const Vec3& p) const {
     const auto bin = bins_.find(bin_of(p));
@@ -106,18 +106,17 @@ struct Look {
 
 // What robots touch.
 struct Touched {
-  explicit Touched(const Place& place) : mesh(touched_mesh(place)), rays(mesh) {
-    for (const ExportBody& body : place.solids) solids.add(mesh_of(body));
-  }
+  explicit Touched(const Place& place)
+      : solids(place), mesh(place.solids.empty() ? place.seen : solids.mesh()), rays(mesh) {}
 
   bool is_steep(std::size_t triangle) const {
     const Vec3 n = vector_area(mesh, triangle);
     return std::abs(n.z()) < kSteep * n.norm();
   }
 
+  Solids solids;
   Mesh mesh;
   MeshRays rays;
-  Solids solids;
 };
 
 Look look(const Touched& touched, const Vec3& floor) {
