@@ -37,8 +37,8 @@ std::string why_up(const Up& up, const Vec3& axis, const char* name) {
   if (up.direction == axis)
     return fmt::format("up is {}: surfaces say so to {:.2f} degrees; {}", name, up.angle / kDegree,
                        support);
-  return fmt::format("up is {:.2f} degrees off {}: surfaces say so; {}", up.angle / kDegree, name,
-                     support);
+  return fmt::format("up is {:.2f} degrees off {}: {} so; {}", up.angle / kDegree, name,
+                     up.is_floors ? "the floor says" : "surfaces say", support);
 }
 
 }  // namespace

@@ -36,6 +36,16 @@ Slope slope_of(const Vec3& normal, const Vec3& up) {
   return off_level < off_upright ? Slope{off_level, true} : Slope{off_upright, false};
 }
 
+// The share of the weight that is level or upright to an up.
+double share_of(const std::vector<Facing>& facings, const Vec3& up, double tolerance) {
+  double all = 0, agreed = 0;
+  for (const Facing& f : facings) {
+    all += f.weight;
+    if (slope_of(f.normal, up).angle < tolerance) agreed += f.weight;
+  }
+  return all > 0 ? agreed / all : 0;
+}
+
 class UpFinder {
  public:
   UpFinder(const std::vector<Facing>& facings, const Vec3& axis, const UpOptions& options,
@@ -52,8 +62,7 @@ class UpFinder {
       if (const double score = score_of(candidate); score > most)
         most = score, up.direction = candidate;
     up.direction = refine(up.direction);
-    for (const Facing& f : facings_)
-      if (speaks_for(f, up.direction)) up.share += f.weight / total_weight_;
+    up.share = share_of(facings_, up.direction, tolerance_);
     up.is_found = up.share >= options_.min_share;
     up.is_partial = is_partial(up.direction);
     up.angle = angle_between(up.direction, axis_);
@@ -178,8 +187,9 @@ Up find_up(const std::vector<Facing>& facings, const Vec3& axis, const UpOptions
   constexpr int kMostRounds = 3;  // the floor may be near to a ceiling that is near to up
   for (int round = 0; round < kMostRounds; ++round)
     if (const auto floor = floor_of(facings, up.direction, options.max_tolerance))
-      up.direction = *floor;
+      up.direction = *floor, up.is_floors = true;
   up.angle = angle_between(up.direction, axis);
+  if (up.is_floors) up.share = share_of(facings, up.direction, up.tolerance);
   return up;
 }
 

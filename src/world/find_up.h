@@ -12,7 +12,7 @@ namespace scanworld {
 struct Facing {
   Vec3 normal;        // unit, to either side
   double weight = 0;  // how much was seen of it, 0 or more: its area, or its points
-  Vec3 middle = Vec3::Zero();
+  Vec3 middle = Vec3::Zero();  // a place of it, by which the floor is told from the ceiling
 };
 
 struct UpOptions {
@@ -35,6 +35,7 @@ struct Up {
   double share = 0;         // of the weight that speaks for it
   double tolerance = 0;     // [rad] to which it does
   bool is_found = false;    // whether that is enough
+  bool is_floors = false;   // whether it is what the floor says, and the rest only nearly
   bool is_partial = false;  // whether only parallel walls tell: along them it is as the axis is
 };
 
