@@ -92,6 +92,7 @@ Json world_info(const std::filesystem::path& file) {
           {"obstacles", world.obstacles.size()},
           {"colliders", world.colliders.size()},
           {"rooms", world.rooms.size()},
+          {"ways", world.ways.size()},
           {"area", total},
           {"bounds", box_json(bounds(as_scanned(world)), world.frame.origin)},
           {"own_bounds", box_json(bounds(world), Vec3::Zero())},

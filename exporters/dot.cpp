@@ -3,6 +3,7 @@
 #include "dot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "files.h"
 #include "world/level.h"
@@ -32,7 +33,7 @@ void write_dot(const std::filesystem::path& path, const World& world, const Expo
   const Topology map = topology_of(world);
   const Eigen::Quaterniond upright = upright_turn(world.frame);
   std::string text =
-      "// scanworld: rooms and the doors between them; metres\n"
+      "// scanworld: rooms, and the doors and stairs between them; metres\n"
       "graph rooms {\n  node [shape=box];\n";
   for (const PlaceNode& room : map.nodes) {
     std::string label = escaped(room.name), more;
@@ -50,6 +51,15 @@ void write_dot(const std::filesystem::path& path, const World& world, const Expo
     text += fmt::format("  room_{} -- room_{} [label=\"{:.2f} m\", opening={}, door_width={:.6f}",
                         door.rooms[0], door.rooms[1], door.width, door.opening, door.width);
     if (door.length) text += fmt::format(", length={:.6f}", *door.length);
+    text += "];\n";
+  }
+  for (const PlaceClimb& climb : map.climbs) {
+    text += fmt::format(
+        "  room_{} -- room_{} [label=\"{} {:.2f} m up\", style=dashed, ways=\"{}\", rise={:.6f}, "
+        "way_width={:.6f}",
+        climb.rooms[0], climb.rooms[1], name_of(climb.kind), climb.rise, fmt::join(climb.ways, " "),
+        climb.rise, climb.width);
+    if (climb.length) text += fmt::format(", length={:.6f}", *climb.length);
     text += "];\n";
   }
   write_text(path, text + "}\n");

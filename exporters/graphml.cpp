@@ -3,6 +3,7 @@
 #include "graphml.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "files.h"
 #include "world/topology.h"
@@ -50,6 +51,20 @@ XmlElement edge_of(const PlaceEdge& door) {
   return edge;
 }
 
+XmlElement edge_of(const PlaceClimb& climb) {
+  XmlElement edge{"edge",
+                  {{"source", fmt::format("room_{}", climb.rooms[0])},
+                   {"target", fmt::format("room_{}", climb.rooms[1])}},
+                  {},
+                  ""};
+  add_data(edge, "ways", fmt::format("{}", fmt::join(climb.ways, " ")));
+  add_data(edge, "kind", name_of(climb.kind));
+  add_number(edge, "width", climb.width);
+  add_number(edge, "rise", climb.rise);
+  add_number(edge, "length", climb.length);
+  return edge;
+}
+
 }  // namespace
 
 void write_graphml(const std::filesystem::path& path, const World& world, const ExportOptions&) {
@@ -63,11 +78,13 @@ void write_graphml(const std::filesystem::path& path, const World& world, const 
       {key("node", "name", "string"), key("node", "area", "double"), key("node", "x", "double"),
        key("node", "y", "double"), key("node", "z", "double"), key("edge", "opening", "int"),
        key("edge", "kind", "string"), key("edge", "width", "double"),
-       key("edge", "height", "double"), key("edge", "length", "double")},
+       key("edge", "height", "double"), key("edge", "length", "double"),
+       key("edge", "ways", "string"), key("edge", "rise", "double")},
       ""};
   XmlElement& graph = root.add({"graph", {{"id", "rooms"}, {"edgedefault", "undirected"}}, {}, ""});
   for (const PlaceNode& room : map.nodes) graph.add(node_of(room));
   for (const PlaceEdge& door : map.edges) graph.add(edge_of(door));
+  for (const PlaceClimb& climb : map.climbs) graph.add(edge_of(climb));
   write_text(path, xml_document(root));
 }
 

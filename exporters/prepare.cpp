@@ -76,6 +76,7 @@ World prepare_export(World world, const ExportOptions& options) {
   if (world.rooms.empty()) {
     RoomMap map = find_rooms(world);
     world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
+    world.ways = std::move(map.ways);
   }
   // Last, as solids and rooms are made of the whole.
   world = leave_out(std::move(world), options.without);

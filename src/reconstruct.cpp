@@ -398,6 +398,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
                         [&] { return find_rooms(world, options.rooms); });
   world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
+  world.ways = std::move(map.ways);
   take(leave_out_invalid(world), result);
 
   result.replay = std::move(recorder).finish(world.frame, cloud.origin);

@@ -85,7 +85,7 @@ TEST_CASE("what a reader of XML finds in GraphML is the topological map") {
     const ReadGraph graph = read_graph(folder / "w.graphml");
     const Topology map = topology_of(world);
     REQUIRE(graph.nodes.size() == map.nodes.size());
-    REQUIRE(graph.edges.size() == map.edges.size());
+    REQUIRE(graph.edges.size() == map.edges.size() + map.climbs.size());
     for (const PlaceNode& room : map.nodes) {
       const Data& data = graph.nodes.at("room_" + std::to_string(room.room));
       CHECK(data.at("name") == room.name);
@@ -111,6 +111,23 @@ TEST_CASE("names with signs that XML gives a meaning come back as they were") {
   CHECK(graph.nodes.at("room_0").at("name") == name);
   CHECK(graph.nodes.at("room_1").at("name") == "a\xef\xbf\xbdz");
   CHECK(graph.nodes.at("room_0").count("area") == 0);
+}
+
+TEST_CASE("stairs between rooms are an edge of the graph") {
+  const TempFolder folder;
+  World world = full_world();
+  world.rooms[0].center = Vec3(0, 1, 0), world.rooms[1].center = Vec3(3, 1, 0);
+  export_world(world, folder / "w.graphml");
+  const ReadGraph graph = read_graph(folder / "w.graphml");
+  REQUIRE(graph.edges.size() == 2);
+  const auto& stairs = graph.edges[1];
+  CHECK(stairs.source == "room_0");
+  CHECK(stairs.target == "room_1");
+  CHECK(stairs.data.at("kind") == "stairs");
+  CHECK(stairs.data.at("ways") == "3");
+  CHECK(stairs.data.count("opening") == 0);
+  CHECK(std::stod(stairs.data.at("rise")) == doctest::Approx(1.0 / 3));
+  CHECK(std::stod(stairs.data.at("length")) > 3);
 }
 
 TEST_CASE("a world without rooms has a graph without nodes") {

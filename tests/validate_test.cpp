@@ -102,6 +102,13 @@ TEST_CASE("each fault is found and named") {
                  "room 0: there is no surface 12"));
   CHECK(contains(reason([](World& w) { w.doors[0].rooms[1] = 4; }), "no room 4"));
   CHECK(contains(reason([](World& w) { w.doors[0].opening = 3; }), "no opening 3"));
+  CHECK(
+      contains(reason([](World& w) { w.ways[0].floors[0] = 9; }), "way 3: there is no surface 9"));
+  CHECK(contains(reason([](World& w) { w.ways[0].rooms[1] = 9; }), "way 3: there is no room 9"));
+  CHECK(contains(reason([](World& w) { w.ways[0].steps = 1; }), "way 3: stairs of 1 steps"));
+  CHECK(contains(reason([](World& w) { w.ways[0].top.z() = -1; }), "way 3: the rise"));
+  CHECK(contains(reason([](World& w) { w.ways[1].slope = 0; }), "way 4: the slope"));
+  CHECK(contains(reason([](World& w) { w.ways[1].id = 3; }), "way 3: the id is there twice"));
 }
 
 TEST_CASE("worlds broken at random never crash the check") {

@@ -61,6 +61,12 @@ TEST_CASE("what is wrong in a file is named by its place") {
   CHECK(contains(error_with(P("/frame/unit"), "ft"), "'m'"));
   CHECK(contains(error_with(P("/obstacles/0/cylinder"), Json::object()),
                  "one of box, hull and cylinder"));
+  CHECK(contains(error_with(P("/ways/0/kind"), "lift"), "'lift' is none of stairs, ramp"));
+  CHECK(contains(error_with(P("/ways/0/kind"), "ramp"),
+                 "world.ways[0]: a way of kind ramp has no 'steps'"));
+  CHECK(contains(error_with(P("/ways/0/rooms"), Json::array({0})), "a list of 2 ids"));
+  CHECK(contains(error_with(P("/ways/1/floors/1"), 0.5),
+                 "world.ways[1].floors[1]: should be a whole"));
   CHECK(contains(error_with(P("/provenance/options/flag"), Json::array()), "plain value"));
   Json json = Json::parse(world_text(full_world()));
   json["surfaces"][1].erase("plane");
@@ -90,14 +96,19 @@ TEST_CASE("the hash changes with the world, not with where it comes from") {
   CHECK(world_hash(world) != before);
 }
 
-TEST_CASE("a world is of version 2 only where something is round or uneven, and both are read") {
+TEST_CASE(
+    "a world is of version 2 only where something is round or uneven or has stairs, and both are "
+    "read") {
   World world = full_world();
+  CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
+  world.ways.clear();
   CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
   world.curves.clear();
   world.surfaces[1].curve.reset(), world.obstacles[2].curve.reset();
   const std::string flat = world_text(world);
   CHECK(Json::parse(flat)["schema"]["version"] == 1);
   CHECK_FALSE(contains(flat, "curve"));
+  CHECK_FALSE(contains(flat, "ways"));
   CHECK(parse_world(flat, "w.json") == world);
   world.surfaces[0].ground = true;
   const std::string uneven = world_text(world);

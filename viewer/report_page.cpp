@@ -119,6 +119,20 @@ std::string rooms_table(const World& world) {
   return text + "</table>\n";
 }
 
+std::string ways_table(const World& world) {
+  if (world.ways.empty()) return "";
+  std::string text = "<table>\n" + row({"way", "width", "rise", "steps", "riser, tread"}, "th");
+  for (const Way& w : world.ways) {
+    const bool is_stairs = w.kind == WayKind::stairs;
+    text += row({fmt::format("{} {}", name_of(w.kind), w.id), fmt::format("{:.2f} m", w.width),
+                 fmt::format("{:.2f} m", world.frame.up.dot(w.top - w.foot)),
+                 is_stairs ? fmt::to_string(w.steps) : "-",
+                 is_stairs ? fmt::format("{:.3f} m, {:.3f} m", w.riser, w.tread)
+                           : fmt::format("slope {:.1f}°", w.slope * 180 / M_PI)});
+  }
+  return text + "</table>\n";
+}
+
 std::string value_text(const Json& value, const std::string& unit) {
   return value.is_null() ? "not measured" : figure_text(value.get<double>(), unit);
 }
@@ -192,7 +206,8 @@ std::string report_page_of(const World& world, const std::string& title,
            sources(world, report) + numbers(world, report) + pictures(world, title) +
            section("Warnings", warnings_list(report.at("warnings"))) +
            section("How true it is to the scan", fidelity_section(report.at("fidelity"))) +
-           section("Surfaces", surfaces_table(world)) + section("Rooms", rooms_table(world)) +
+           section("Surfaces", surfaces_table(world)) +
+           section("Rooms", rooms_table(world) + ways_table(world)) +
            section("Openings", openings_table(world)) +
            section("Where the time went", stages_chart(report.at("stages"))) + "</body>\n</html>\n";
   } catch (const Json::exception& e) {

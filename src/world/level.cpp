@@ -74,6 +74,8 @@ World moved(World world, const Eigen::Quaterniond& rotation, const Vec3& shift) 
   }
   for (Room& r : world.rooms)
     if (r.center) r.center = motion(*r.center).unaryExpr(&rounded);
+  for (Way& w : world.ways)
+    for (Vec3* end : {&w.foot, &w.top}) *end = motion(*end).unaryExpr(&rounded);
   for (CurvedPart& c : world.curves) {
     RoundShape& shape = c.curve.shape;
     shape.point = motion(shape.point), shape.axis = (motion.rotation * shape.axis).normalized();

@@ -183,6 +183,8 @@ Vec3 place_of(const World& world, const Door& d) {
   return Vec3::Zero();
 }
 
+Vec3 place_of(const World&, const Way& w) { return (w.foot + w.top) / 2; }
+
 // Keeps the things of one kind that are valid beside what they refer to.
 template <typename Thing, typename Beside>
 void keep_valid(const World& world, std::vector<Thing> World::*things, const Beside& beside,
@@ -285,6 +287,19 @@ Mended leave_out_invalid(World world) {
   };
   keep_valid(world, &World::rooms, beside_all, kept);
   keep_valid(world, &World::doors, beside_all, kept);
+  for (Way& way : world.ways) {
+    const auto forget = [](std::optional<int>& id, const auto& is_there) {
+      if (id && !is_there(*id)) id.reset();
+    };
+    for (auto& id : way.floors)
+      forget(id, [&](int floor) { return find_surface(kept.world, floor) != nullptr; });
+    for (auto& id : way.rooms)
+      forget(id, [&](int room) {
+        return std::any_of(kept.world.rooms.begin(), kept.world.rooms.end(),
+                           [&](const Room& r) { return r.id == room; });
+      });
+  }
+  keep_valid(world, &World::ways, beside_all, kept);
   drop_vertices(kept.world);
   return kept;
 }

@@ -247,6 +247,38 @@ Door read_door(const Node& n) {
   return {n.at("opening").integer(), {rooms.item(0).integer(), rooms.item(1).integer()}};
 }
 
+// Two ids, of which each may be null.
+std::array<std::optional<int>, 2> read_ends(const Node& n) {
+  if (n.size() != 2) n.fail("should be a list of 2 ids");
+  std::array<std::optional<int>, 2> ids;
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!n.item(i).json().is_null()) ids[i] = n.item(i).integer();
+  return ids;
+}
+
+Way read_way(const Node& n) {
+  n.expect_keys({"id", "kind", "foot", "top", "width", "?steps", "?riser", "?tread", "?slope",
+                 "floors", "rooms"});
+  Way w{.id = n.at("id").integer(),
+        .kind = n.at("kind").one_of({WayKind::stairs, WayKind::ramp}),
+        .foot = n.at("foot").vector(),
+        .top = n.at("top").vector(),
+        .width = n.at("width").number(),
+        .floors = read_ends(n.at("floors")),
+        .rooms = read_ends(n.at("rooms"))};
+  const bool is_stairs = w.kind == WayKind::stairs;
+  for (const char* key : {"steps", "riser", "tread", "slope"})
+    if (n.has(key) != (is_stairs == (key != std::string("slope"))))
+      n.fail(fmt::format("a way of kind {} {} '{}'", name_of(w.kind),
+                         n.has(key) ? "has no" : "needs", key));
+  if (is_stairs)
+    w.steps = n.at("steps").integer(), w.riser = n.at("riser").number(),
+    w.tread = n.at("tread").number();
+  else
+    w.slope = n.at("slope").number();
+  return w;
+}
+
 Provenance read_provenance(const Node& n) {
   n.expect_keys({"program", "inputs", "options"});
   Provenance p{.program = n.at("program").text()};
@@ -285,7 +317,7 @@ World read_document(const Node& n) {
     schema.fail(
         fmt::format("version {} cannot be read, only 1 to {}", version, kWorldSchemaVersion));
   n.expect_keys({"schema", "frame", "vertices", "surfaces", "openings", "obstacles", "colliders",
-                 "?curves", "rooms", "doors", "provenance"});
+                 "?curves", "rooms", "doors", "?ways", "provenance"});
   return {.frame = read_frame(n.at("frame")),
           .vertices = n.at("vertices").vectors(),
           .surfaces = n.at("surfaces").list(read_surface),
@@ -295,6 +327,7 @@ World read_document(const Node& n) {
           .curves = n.has("curves") ? n.at("curves").list(read_curve) : std::vector<CurvedPart>{},
           .rooms = n.at("rooms").list(read_room),
           .doors = n.at("doors").list(read_door),
+          .ways = n.has("ways") ? n.at("ways").list(read_way) : std::vector<Way>{},
           .provenance = read_provenance(n.at("provenance"))};
 }
 

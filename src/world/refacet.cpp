@@ -431,6 +431,7 @@ class Recut {
     all.insert(all.end(), made_.begin(), made_.end());
     world_.surfaces = std::move(all);
     world_.colliders.clear(), world_.rooms.clear(), world_.doors.clear();
+    world_.ways.clear();
   }
 
   struct Chain {

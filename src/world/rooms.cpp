@@ -122,6 +122,14 @@ class StoreyRooms {
     return sides;
   }
 
+  // The region of the room at an end of a way, which leads out of there in a direction; -1 where
+  // there is none, nothing where the end is in another storey.
+  std::optional<std::int32_t> room_at(const Vec3& end, const Vec2& out) const {
+    const Vec3 place = upright_.turn * end;
+    if (grid_.size() == 0 || std::abs(place.z() - level_) > options_.step) return std::nullopt;
+    return first_room(place.head<2>(), out);
+  }
+
  private:
   static double foot_of(const std::vector<Vec3>& ring) {
     double foot = std::numeric_limits<double>::max();
@@ -268,6 +276,7 @@ RoomMap find_rooms(const World& world, const RoomOptions& options) {
   const std::vector<Storey> storeys = find_storeys(world, options.storeys);
   if (storeys.empty()) return map;
   const Upright upright(world);
+  map.ways = find_ways(world, upright, options.ways);
   for (std::size_t k = 0; k < storeys.size(); ++k) {
     const double next =
         k + 1 < storeys.size() ? storeys[k + 1].level : std::numeric_limits<double>::max();
@@ -286,6 +295,15 @@ RoomMap find_rooms(const World& world, const RoomOptions& options) {
       if (!sides || !id_of.count((*sides)[0]) || !id_of.count((*sides)[1])) continue;
       const auto [a, b] = std::minmax(id_of[(*sides)[0]], id_of[(*sides)[1]]);
       if (a != b) map.doors.push_back({o.id, {a, b}});
+    }
+    for (Way& way : map.ways) {
+      const Vec3 up = upright.turn * (way.top - way.foot);
+      const Vec2 along = up.head<2>().normalized();
+      for (std::size_t end = 0; end < 2; ++end)
+        if (const auto region =
+                storey.room_at(end == 0 ? way.foot : way.top, end == 0 ? Vec2(-along) : along);
+            region && id_of.count(*region))
+          way.rooms[end] = id_of[*region];
     }
   }
   return map;

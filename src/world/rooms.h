@@ -6,12 +6,14 @@
 
 #include "../options.h"
 #include "storeys.h"
+#include "ways.h"
 #include "world.h"
 
 namespace scanworld {
 
 struct RoomOptions {
   StoreyOptions storeys;
+  WayOptions ways;
   double cell = 0.05;  // [m] edge; where a storey would have more than 4 million, they are larger
   // [m] over the floor, where walls are looked for: above cupboards and the heads of doors (2 to
   // 2.2 m), so that lintels part rooms even where an opening was not told.
@@ -32,6 +34,7 @@ OptionList list_options(RoomOptions& options);
 struct RoomMap {
   std::vector<Room> rooms;  // ids from 0: by storey from the lowest, then the largest first
   std::vector<Door> doors;  // in the order of the world's openings
+  std::vector<Way> ways;    // with the rooms that they begin and end in
 };
 
 inline std::size_t count_of(const RoomMap& map) { return map.rooms.size(); }

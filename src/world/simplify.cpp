@@ -72,6 +72,9 @@ void drop_dangling(World& world) {
   std::erase_if(world.doors, [&](const Door& d) { return !openings.contains(d.opening); });
   for (Room& room : world.rooms)
     std::erase_if(room.surfaces, [&](int id) { return !kept.contains(id); });
+  for (Way& way : world.ways)
+    for (std::optional<int>& end : way.floors)
+      if (end && !kept.contains(*end)) end.reset();
   drop_vertices(world);
 }
 

@@ -24,6 +24,56 @@ Vec3 threshold_of(const World& world, const Loop& loop) {
   return middle + (low - world.frame.up.dot(middle)) * world.frame.up;
 }
 
+const Room& room_with(const World& world, int id, const std::string& what) {
+  const auto room = std::find_if(world.rooms.begin(), world.rooms.end(),
+                                 [&](const Room& r) { return r.id == id; });
+  if (room == world.rooms.end())
+    throw Error(Cause::check_failed, fmt::format("{}: there is no room {}", what, id));
+  return *room;
+}
+
+// The length of the way from the centre of one room over places to that of another.
+std::optional<double> length_over(const Room& from, const std::vector<Vec3>& places,
+                                  const Room& to) {
+  if (!from.center || !to.center) return std::nullopt;
+  double length = 0;
+  Vec3 last = *from.center;
+  for (const Vec3& p : places) length += (p - last).norm(), last = p;
+  return length + (*to.center - last).norm();
+}
+
+// The flight that goes on from the landing that one ends on; null where none does.
+const Way* next_flight(const World& world, const Way& flight) {
+  if (flight.rooms[1] || !flight.floors[1]) return nullptr;
+  const auto next = std::find_if(world.ways.begin(), world.ways.end(), [&](const Way& w) {
+    return w.floors[0] == flight.floors[1] && !w.rooms[0] &&
+           world.frame.up.dot(w.top - flight.top) > 0;
+  });
+  return next == world.ways.end() ? nullptr : &*next;
+}
+
+// From a flight that begins in a room; nothing where it leads to none.
+std::optional<PlaceClimb> climb_from(const World& world, const Way& first) {
+  PlaceClimb climb{.width = first.width};
+  std::vector<Vec3> places;
+  const Way* last = nullptr;
+  for (const Way* w = &first; w; w = next_flight(world, *w)) {
+    climb.ways.push_back(w->id);
+    if (w->kind == WayKind::stairs) climb.kind = WayKind::stairs;
+    climb.width = std::min(climb.width, w->width);
+    places.insert(places.end(), {w->foot, w->top});
+    last = w;
+  }
+  if (!first.rooms[0] || !last->rooms[1]) return std::nullopt;
+  climb.rooms = {*first.rooms[0], *last->rooms[1]};
+  if (climb.rooms[0] == climb.rooms[1]) return std::nullopt;
+  climb.rise = world.frame.up.dot(last->top - first.foot);
+  const std::string what = fmt::format("way {}", first.id);
+  climb.length = length_over(room_with(world, climb.rooms[0], what), places,
+                             room_with(world, climb.rooms[1], what));
+  return climb;
+}
+
 }  // namespace
 
 Topology topology_of(const World& world) {
@@ -40,22 +90,13 @@ Topology topology_of(const World& world) {
                    .width = opening->width,
                    .height = opening->height,
                    .place = threshold_of(world, opening->loop)};
-    double length = 0;
-    bool is_known = true;
-    for (int id : d.rooms) {
-      const auto room = std::find_if(world.rooms.begin(), world.rooms.end(),
-                                     [&](const Room& r) { return r.id == id; });
-      if (room == world.rooms.end())
-        throw Error(Cause::check_failed,
-                    fmt::format("door at opening {}: there is no room {}", d.opening, id));
-      if (room->center)
-        length += (*room->center - edge.place).norm();
-      else
-        is_known = false;
-    }
-    if (is_known) edge.length = length;
+    const std::string what = fmt::format("door at opening {}", d.opening);
+    edge.length = length_over(room_with(world, d.rooms[0], what), {edge.place},
+                              room_with(world, d.rooms[1], what));
     map.edges.push_back(edge);
   }
+  for (const Way& w : world.ways)
+    if (const auto climb = climb_from(world, w)) map.climbs.push_back(*climb);
   return map;
 }
 

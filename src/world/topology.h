@@ -31,9 +31,20 @@ struct PlaceEdge {
   std::optional<double> length;
 };
 
+// Stairs or a ramp between two rooms: flights from landing to landing.
+struct PlaceClimb {
+  std::vector<int> ways;         // ids, from the foot to the top
+  std::array<int, 2> rooms{};    // ids, of the lower and the upper one
+  WayKind kind = WayKind::ramp;  // stairs if one is
+  double width = 0;              // [m] the least
+  double rise = 0;               // [m] from the foot to the top
+  std::optional<double> length;  // [m] as of PlaceEdge, from each foot straight to its top and on
+};
+
 struct Topology {
   std::vector<PlaceNode> nodes;
   std::vector<PlaceEdge> edges;
+  std::vector<PlaceClimb> climbs;
 };
 
 // The rooms and doors of a world as a graph, in its order. Throws check_failed naming a door whose

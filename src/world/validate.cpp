@@ -32,6 +32,7 @@ class Validator {
     const std::set<int> openings = check_ids("opening", world_.openings);
     const std::set<int> rooms = check_ids("room", world_.rooms);
     check_ids("obstacle", world_.obstacles);
+    check_ids("way", world_.ways);
     const std::set<int> curves = check_ids("curve", world_.curves);
     for (const CurvedPart& c : world_.curves) check(c);
     const auto check_curve_id = [&](const char* what, int id, std::optional<int> curve) {
@@ -59,6 +60,7 @@ class Validator {
         if (!rooms.count(id)) report("door {}: there is no room {}", i, id);
       if (d.rooms[0] == d.rooms[1]) report("door {}: joins room {} with itself", i, d.rooms[0]);
     }
+    for (const Way& w : world_.ways) check(w, rooms);
     return std::move(reasons_);
   }
 
@@ -135,6 +137,29 @@ class Validator {
     if (r.area && !(*r.area > 0 && std::isfinite(*r.area)))
       report("{}: the area {} is not positive", name, *r.area);
     if (r.center) check_place(name + ": the center", *r.center);
+  }
+
+  void check(const Way& w, const std::set<int>& rooms) {
+    const std::string name = fmt::format("way {}", w.id);
+    check_place(name + ": the foot", w.foot);
+    check_place(name + ": the top", w.top);
+    const auto check_positive = [&](const char* what, double value) {
+      if (!(value > 0 && std::isfinite(value)))
+        report("{}: the {} {} is not positive", name, what, value);
+    };
+    check_positive("width", w.width);
+    check_positive("rise", world_.frame.up.dot(w.top - w.foot));
+    if (w.kind == WayKind::stairs) {
+      check_positive("riser", w.riser);
+      check_positive("tread", w.tread);
+      if (w.steps < 2) report("{}: stairs of {} steps", name, w.steps);
+    } else {
+      check_positive("slope", w.slope);
+    }
+    for (const std::optional<int>& id : w.floors)
+      if (id) check_surface_id(name, *id);
+    for (const std::optional<int>& id : w.rooms)
+      if (id && !rooms.count(*id)) report("{}: there is no room {}", name, *id);
   }
 
   void check(const Surface& s) {

@@ -48,6 +48,11 @@ const char* name_of(OpeningKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+const char* name_of(WayKind kind) {
+  static constexpr const char* names[] = {"stairs", "ramp"};
+  return names[static_cast<int>(kind)];
+}
+
 std::size_t triangle_count(const World& world) {
   std::size_t count = 0;
   for (const Surface& s : world.surfaces) {

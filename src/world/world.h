@@ -122,6 +122,24 @@ struct Door {
   bool operator==(const Door&) const = default;
 };
 
+enum class WayKind { stairs, ramp };
+
+// A flight of stairs or a ramp, along the middle of its width.
+struct Way {
+  int id = 0;
+  WayKind kind = WayKind::stairs;
+  Vec3 foot = Vec3::Zero();  // on the floor it begins on, where the first riser stands
+  Vec3 top = Vec3::Zero();   // on the floor it ends on, at that one's edge
+  double width = 0;          // [m]
+  int steps = 0;             // risers; a ramp has none, and no riser and tread
+  double riser = 0;          // [m] from one tread to the next
+  double tread = 0;          // [m] the same in plan
+  double slope = 0;          // [rad] of a ramp
+  // The floors or landings, and the rooms, that it begins and ends on; nothing where not known.
+  std::array<std::optional<int>, 2> floors{}, rooms{};  // ids
+  bool operator==(const Way&) const = default;
+};
+
 // How the world lies in the coordinates of the scan file: those are rotation * p + origin for a
 // point p of the world.
 struct Frame {
@@ -163,6 +181,7 @@ struct World {
   std::vector<CurvedPart> curves;
   std::vector<Room> rooms;
   std::vector<Door> doors;
+  std::vector<Way> ways;
   Provenance provenance;
   bool operator==(const World&) const = default;
 };
@@ -170,6 +189,7 @@ struct World {
 const char* name_of(Kind kind);
 const char* name_of(Source source);
 const char* name_of(OpeningKind kind);
+const char* name_of(WayKind kind);
 const char* name_of(CurveType type);
 
 // Of any triangulation without further vertices.

@@ -118,6 +118,23 @@ Json to_json(const Room& r) {
 }
 Json to_json(const Door& d) { return {{"opening", d.opening}, {"rooms", d.rooms}}; }
 
+Json to_json(const std::optional<int>& id) { return id ? Json(*id) : Json(nullptr); }
+
+Json to_json(const Way& w) {
+  const auto pair = [](const auto& ids) { return Json::array({to_json(ids[0]), to_json(ids[1])}); };
+  Json j = {{"id", w.id},
+            {"kind", name_of(w.kind)},
+            {"foot", to_json(w.foot)},
+            {"top", to_json(w.top)},
+            {"width", w.width}};
+  if (w.kind == WayKind::stairs)
+    j.update({{"steps", w.steps}, {"riser", w.riser}, {"tread", w.tread}});
+  else
+    j["slope"] = w.slope;
+  j.update({{"floors", pair(w.floors)}, {"rooms", pair(w.rooms)}});
+  return j;
+}
+
 Json to_json(const Provenance& p) {
   Json inputs = Json::array(), options = Json::object();
   for (const auto& i : p.inputs)
@@ -135,11 +152,12 @@ Json list_of(const std::vector<T>& items) {
 }
 
 Json to_json(const World& w) {
-  // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it.
-  const bool is_plain =
-      w.curves.empty() && std::all_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
-        return s.inferred.empty() && !s.ground;
-      });
+  // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it,
+  // and no stairs.
+  const bool is_plain = w.curves.empty() && w.ways.empty() &&
+                        std::all_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
+                          return s.inferred.empty() && !s.ground;
+                        });
   const int version = is_plain ? 1 : kWorldSchemaVersion;
   Json j = {{"schema", {{"name", "scanworld"}, {"version", version}}},
             {"frame", to_json(w.frame)},
@@ -149,9 +167,9 @@ Json to_json(const World& w) {
             {"obstacles", list_of(w.obstacles)},
             {"colliders", list_of(w.colliders)}};
   if (!w.curves.empty()) j["curves"] = list_of(w.curves);
-  j.update({{"rooms", list_of(w.rooms)},
-            {"doors", list_of(w.doors)},
-            {"provenance", to_json(w.provenance)}});
+  j.update({{"rooms", list_of(w.rooms)}, {"doors", list_of(w.doors)}});
+  if (!w.ways.empty()) j["ways"] = list_of(w.ways);
+  j["provenance"] = to_json(w.provenance);
   return j;
 }
 

@@ -123,6 +123,22 @@ World full_world() {
   world.obstacles[2].curve = 4, world.surfaces[1].curve = 5;
   world.rooms = {{0, "hall", {0, 1}}, {1, "yard", {}}};
   world.doors = {{7, {0, 1}}};
+  world.ways = {{.id = 3,
+                 .foot = {1, 1, 0},
+                 .top = {2, 1, 1.0 / 3},
+                 .width = 0.9,
+                 .steps = 2,
+                 .riser = 1.0 / 6,
+                 .tread = 1,
+                 .floors = {0, std::nullopt},
+                 .rooms = {0, 1}},
+                {.id = 4,
+                 .kind = WayKind::ramp,
+                 .foot = {1, 2, 0},
+                 .top = {2, 2, 0.1},
+                 .width = 1,
+                 .slope = 0.0996686524911620,
+                 .rooms = {1, std::nullopt}}};
   world.provenance = {
       "scanworld 0",
       {{"a.ply", 12, "00ff"}},

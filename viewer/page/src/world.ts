@@ -57,6 +57,7 @@ export interface World {
   colliders: { surface: number | null; solid: Solid }[];
   rooms: Room[];
   doors: { opening: number; rooms: [number, number] }[]; // indices
+  ways: { id: number; foot: Vec3; top: Vec3; rooms: [number | null, number | null] }[]; // stairs and ramps; indices of rooms
   provenance: { program: string; inputs: { file: string; points: number | null; fingerprint: string }[]; options: [string, string][] };
 }
 
@@ -181,6 +182,12 @@ export function read_world(root: Place): World {
       const ends = p.at('rooms').list();
       if (ends.length !== 2) p.at('rooms').fail('a door joins two rooms');
       return { opening: opening_ids.find(p.at('opening')), rooms: [room_ids.find(ends[0]!), room_ids.find(ends[1]!)] };
+    }),
+    ways: root.at('ways').any().map((p) => {
+      const ends = p.at('rooms').list();
+      if (ends.length !== 2) p.at('rooms').fail('a way has two ends');
+      const room = (k: number) => ends[k]!.optional((r) => room_ids.find(r));
+      return { id: p.at('id').whole(), foot: p.at('foot').vec3(), top: p.at('top').vec3(), rooms: [room(0), room(1)] };
     }),
     provenance: read_provenance(root.at('provenance')),
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The scanworld authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The topological map: floors tinted by room, a name for each, and lines through the doors that join them.
+// The topological map: floors tinted by room, a name for each, and lines through the doors and up the stairs that join them.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshBasicMaterial, Points, PointsMaterial, Quaternion, Vector3 } from 'three';
 import type { Vec3 } from '../check';
 import { hsl } from '../palette';
@@ -84,8 +84,8 @@ function middle(world: World, opening: number): Vec3 {
   return [0, 1, 2].map((k) => loop.reduce((sum, p) => sum + p[k]!, 0) / loop.length) as Vec3;
 }
 
-/** From the centre of a room through the middle of a door to the centre of the other one, a little over the floor. */
-function door_links(world: World): LineBuilder {
+/** From the centre of a room through the middle of a door, or up stairs and ramps, to the centre of the other one, a little over the floor. */
+function links_between(world: World): LineBuilder {
   const lines = new LineBuilder();
   const lifted = (p: Vec3): Vec3 => p.map((v, k) => v + 0.1 * world.up[k]!) as Vec3;
   for (const door of world.doors) {
@@ -94,16 +94,24 @@ function door_links(world: World): LineBuilder {
       if (center) lines.segment(lifted(center), middle(world, door.opening), [0, 0, 0]);
     }
   }
+  for (const way of world.ways) {
+    const ends = [way.foot, way.top];
+    lines.segment(lifted(way.foot), lifted(way.top), [0, 0, 0]);
+    way.rooms.forEach((room, k) => {
+      const center = room === null ? null : world.rooms[room]!.center;
+      if (center) lines.segment(lifted(center), lifted(ends[k]!), [0, 0, 0]);
+    });
+  }
   return lines;
 }
 
 export function room_layer(world: World, surfaces: Soup, ink: Color): Group {
   const soup = tint_soup(world, surfaces);
   const tint = new MeshBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.72, side: DoubleSide, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 });
-  const links = door_links(world).done(ink);
+  const links = links_between(world).done(ink);
   links.material.depthTest = false;
   links.renderOrder = 2;
-  const places = new BufferGeometry().setAttribute('position', new BufferAttribute(Float32Array.from(world.doors.flatMap((d) => middle(world, d.opening))), 3));
+  const places = new BufferGeometry().setAttribute('position', new BufferAttribute(Float32Array.from([...world.doors.map((d) => middle(world, d.opening)), ...world.ways.flatMap((w) => [w.foot, w.top])].flat()), 3));
   const marks = new Points(places, new PointsMaterial({ color: ink, size: 7, sizeAttenuation: false, depthTest: false, transparent: true }));
   marks.renderOrder = 2;
   return new Group().add(new Mesh(soup_geometry(soup, room_color), tint), links, marks);
