@@ -55,7 +55,9 @@ TEST_CASE("what has points is at distance 0, and all else farther the farther it
     CHECK(steep == 0);
     CHECK(cover.area ==
           doctest::Approx(static_cast<double>(count) * raster.cell * raster.cell).epsilon(1e-9));
-    CHECK(cover.reach == doctest::Approx(std::clamp(0.7 * std::sqrt(cover.area), 0.3, 0.8)));
+    const bool is_floor = cover.area > 4 && cover.plane.normal.z() > 0.9;
+    CHECK(cover.reach ==
+          doctest::Approx(std::clamp(0.7 * std::sqrt(cover.area), 0.3, is_floor ? 4 : 0.8)));
   }
 }
 
@@ -74,6 +76,17 @@ TEST_CASE(
       CHECK(value_at(floor, floor.distance, {2 + off, y, 0}) > around - 2 * cell);
     }
   }
+}
+
+TEST_CASE("a floor goes on far under a ceiling, and not under the sky") {
+  LabelledScan scan;
+  scan.add({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  CHECK(run_space(scan).outlook.covers[0].reach == doctest::Approx(0.8));
+  scan.add({0, 0, 2.5}, {0, 4, 0}, {4, 0, 0});
+  const SpaceStages stages = run_space(scan);
+  const space::Cover& floor = cover_at(stages, {2, 2, 0}, Vec3::UnitZ());
+  CHECK(floor.reach == doctest::Approx(2.8).epsilon(0.02));
+  CHECK(value_at(floor, floor.distance, {6, 2, 0}) == doctest::Approx(2).epsilon(0.05));
 }
 
 TEST_CASE("a plane that stands off the end of another one blocks nothing") {

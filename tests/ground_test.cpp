@@ -140,6 +140,30 @@ TEST_CASE("ground goes under what hides it, up to two metres, and not onto it") 
   CHECK(std::abs(heights[0] - hill(10)) < 0.1);
 }
 
+TEST_CASE("stairs are no ground, they would need a facet each few centimetres") {
+  Random random(5);
+  std::vector<Vec3> places;
+  for (double x = 0.025; x < 15; x += 0.05)
+    for (double y = 0.025; y < 5; y += 0.05)
+      places.emplace_back(x, y,
+                          (x < 5 ? 0 : 0.05 * std::floor((x - 5) / 0.3)) + 0.003 * random.gauss());
+  GroundOptions rough;
+  rough.max_facets = 1e6;
+  const GroundScale scale{kTolerance, 0.05};
+  CHECK(find_ground(floor_to(5), places, {}, scale, rough).facets > 20 * 50);
+  CHECK(find_ground(floor_to(5), places, {}, scale).facets == 0);
+}
+
+TEST_CASE("the upper side of a ceiling is no ground") {
+  FoundSurface ceiling{.plane = {-Vec3::UnitZ(), -0.2},
+                       .outer = {{5, 0, -0.2}, {5, 5, -0.2}, {15, 5, -0.2}, {15, 0, -0.2}}};
+  const FoundSurface floor{.plane = {Vec3::UnitZ(), 0},
+                           .outer = {{0, 0, 0}, {5, 0, 0}, {5, 5, 0}, {0, 5, 0}},
+                           .holes = {},
+                           .support = {.points = 1000, .rms = 0.003, .coverage = 1}};
+  CHECK(find(assemble_world({floor, ceiling}, Frame{}), hill_places(0, 8)).facets == 0);
+}
+
 TEST_CASE("a pit that one looks down into stays open") {
   std::vector<Vec3> places = hill_places(0, 15);
   std::erase_if(places, [](const Vec3& p) {

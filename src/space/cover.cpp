@@ -66,14 +66,42 @@ std::vector<float> distance_around(const Cover& cover, const Raster& blocked) {
   return distance;
 }
 
-Cover cover_of(const Patch& patch, const Sight& sight, const CoverOptions& options) {
+// [m2] of a raster that is set.
+double set_area(const Raster& raster) {
+  return static_cast<double>(std::count(raster.bits.begin(), raster.bits.end(), 1)) * raster.cell *
+         raster.cell;
+}
+
+// Whether a patch is the floor of a room: it looks up, and ceilings are over a part of it. Ground
+// under the sky bends, and its planes must not run far.
+bool is_room_floor(const Patch& patch, const std::vector<Patch>& patches, const Vec3& up) {
+  constexpr double kHeadroom = 1.5, kHighest = 10;  // [m] a ceiling is over a floor
+  constexpr double kLeast = 0.25;                   // of the floor that is under ceilings
+  if (patch.hit.bits.empty() || patch.plane.normal.dot(up) < kLevelCosine) return false;
+  double left = kLeast * set_area(patch.covered);
+  for (const Patch& ceiling : patches) {
+    if (ceiling.hit.bits.empty() || ceiling.plane.normal.dot(up) > -kLevelCosine) continue;
+    const double square = ceiling.covered.cell * ceiling.covered.cell;
+    for (std::size_t i = 0; i < ceiling.covered.bits.size(); ++i) {
+      if (!ceiling.covered.bits[i]) continue;
+      const Vec3 place = ceiling.frame.to_space(ceiling.covered.middle(i));
+      const double height = patch.plane.signed_distance(place);
+      if (height > kHeadroom && height < kHighest && patch.hit.find(patch.frame.to_plane(place)))
+        left -= square;
+    }
+    if (left < 0) return true;
+  }
+  return false;
+}
+
+Cover cover_of(const Patch& patch, bool is_indoors, const Sight& sight,
+               const CoverOptions& options) {
   Cover cover{.plane = patch.plane, .frame = patch.frame};
   if (patch.hit.bits.empty()) return cover;
   const double cell = patch.hit.cell;
-  const auto cells = std::count(patch.covered.bits.begin(), patch.covered.bits.end(), 1);
-  cover.area = static_cast<double>(cells) * cell * cell;
-  cover.reach =
-      std::clamp(options.reach_share * std::sqrt(cover.area), options.min_reach, options.max_reach);
+  cover.area = set_area(patch.covered);
+  cover.reach = std::clamp(options.reach_share * std::sqrt(cover.area), options.min_reach,
+                           is_indoors ? options.floor_reach : options.max_reach);
   const int more = static_cast<int>(std::ceil(cover.reach / cell));
   const Raster& supported = cover.supported = widened(patch.covered, more);
   cover.distance = distance_around(cover, empty_like(supported));
@@ -126,8 +154,10 @@ std::vector<Cover> find_covers(const std::vector<Patch>& patches,
                                const std::vector<surface::Seam>& seams, const Sight& sight,
                                const CoverOptions& options) {
   std::vector<Cover> covers(patches.size());
-  parallel_for(patches.size(),
-               [&](std::size_t k) { covers[k] = cover_of(patches[k], sight, options); });
+  parallel_for(patches.size(), [&](std::size_t k) {
+    const bool is_indoors = is_room_floor(patches[k], patches, sight.up());
+    covers[k] = cover_of(patches[k], is_indoors, sight, options);
+  });
   std::vector<std::vector<const surface::Seam*>> seams_of(patches.size());
   for (const surface::Seam& seam : seams)
     for (const int k : {seam.a, seam.b}) seams_of[static_cast<std::size_t>(k)].push_back(&seam);

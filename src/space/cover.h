@@ -13,6 +13,7 @@ struct CoverOptions {
   double reach_share = 0.7;  // of a patch's size, the root of its area: so far it may go on ...
   double min_reach = 0.3;    // [m] ... but at least
   double max_reach = 0.8;    // [m] ... and at most
+  double floor_reach = 4;    // [m] the same of a floor in a room: under all that hides it
   SightOptions sight;
 };
 

@@ -36,6 +36,7 @@ class Sight {
 
   bool is_occupied(const Vec3& place) const;
   double cell() const { return cell_; }
+  const Vec3& up() const { return up_; }
 
  private:
   static constexpr int kAzimuths = 180, kElevations = 90;

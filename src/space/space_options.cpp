@@ -27,6 +27,8 @@ OptionList list_options(SpaceOptions& o) {
        "of a plane's size, so far it may go on beyond its points", 0},
       {"space.cover.min_reach", &o.cover.min_reach, "m", "but so far at least", 0},
       {"space.cover.max_reach", &o.cover.max_reach, "m", "and at most", 0},
+      {"space.cover.floor_reach", &o.cover.floor_reach, "m",
+       "and at most, of a floor with a ceiling", 0},
       {"space.sight.cell", &o.cover.sight.cell, "m",
        "edge of the cells in which points hide what is behind them", 0.02},
       {"space.sight.viewers", &o.cover.sight.viewers, "",

@@ -58,17 +58,14 @@ Heights filled(const Heights& heights, const Raster& wanted, int reach) {
   return all;
 }
 
-Raster large_pieces(const Raster& wanted, const Raster& counts, std::size_t least,
-                    double least_share) {
-  Raster large = surface::empty_like(wanted), left = wanted;
-  std::vector<std::size_t> piece;
+std::vector<std::vector<std::size_t>> pieces_of(const Raster& wanted) {
+  std::vector<std::vector<std::size_t>> pieces;
+  Raster left = wanted;
   for (std::size_t start = 0; start < left.bits.size(); ++start) {
     if (!left.bits[start]) continue;
-    piece = {start};
+    std::vector<std::size_t> piece = {start};
     left.bits[start] = 0;
-    std::size_t count = 0;
     for (std::size_t n = 0; n < piece.size(); ++n) {
-      count += counts.bits[piece[n]];
       const int x = wanted.column(piece[n]), y = wanted.row(piece[n]);
       for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
         if (left.is_set(x + dx, y + dy)) {
@@ -76,6 +73,17 @@ Raster large_pieces(const Raster& wanted, const Raster& counts, std::size_t leas
           left.bits[piece.back()] = 0;
         }
     }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+Raster large_pieces(const Raster& wanted, const Raster& counts, std::size_t least,
+                    double least_share) {
+  Raster large = surface::empty_like(wanted);
+  for (const auto& piece : pieces_of(wanted)) {
+    std::size_t count = 0;
+    for (const std::size_t i : piece) count += counts.bits[i];
     if (count >= least &&
         static_cast<double>(count) >= least_share * static_cast<double>(piece.size()))
       for (const std::size_t i : piece) large.bits[i] = 1;

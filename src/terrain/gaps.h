@@ -16,6 +16,9 @@ surface::Raster seen_through(const Heights& filled, const Level& level,
 // what nothing can be said of is not set.
 Heights filled(const Heights& heights, const surface::Raster& wanted, int reach);
 
+// The set cells that hang together over their sides.
+std::vector<std::vector<std::size_t>> pieces_of(const surface::Raster& wanted);
+
 // Of the set cells those in connected pieces with so many that count, and such a share of them.
 surface::Raster large_pieces(const surface::Raster& wanted, const surface::Raster& counts,
                              std::size_t least, double least_share);

@@ -87,9 +87,11 @@ class GroundFinder {
         floors.push_back(flat);
     while (!floors.empty()) {
       const Heights known = grow_storey(columns, level_, floors, heights_);
-      const auto [ground, wanted] = uncovered(known);
-      if (std::count(wanted.bits.begin(), wanted.bits.end(), 1) == 0) continue;
-      cut_.push_back(cut_facets(ground, wanted, known.known, options_.error * tolerance_));
+      Storey storey = uncovered(known);
+      std::vector<Facet> facets = cut(storey);
+      if (drop_rough(facets, storey)) facets = cut(storey);
+      replace_floors(storey);
+      cut_.push_back(std::move(facets));
     }
     drop_floors();
     for (const std::vector<Facet>& facets : cut_) add(facets);
@@ -99,6 +101,52 @@ class GroundFinder {
   }
 
  private:
+  // What is told of the ground of a storey.
+  struct Storey {
+    Heights ground;
+    Raster seen;                          // where it is known from points
+    Raster wanted;                        // where no floor that stays covers it ...
+    Raster under;                         // ... and a little under those
+    std::vector<const Flat*> fit, unfit;  // floors that stay, and that may give way
+  };
+
+  std::vector<Facet> cut(const Storey& storey) const {
+    Raster all = storey.wanted;
+    for (std::size_t i = 0; i < all.bits.size(); ++i) all.bits[i] |= storey.under.bits[i];
+    if (std::count(all.bits.begin(), all.bits.end(), 1) == 0) return {};
+    return cut_facets(storey.ground, all, storey.seen, options_.error * tolerance_);
+  }
+
+  // Leaves out the pieces that need too many facets; false where there are none.
+  bool drop_rough(const std::vector<Facet>& facets, Storey& storey) const {
+    std::vector<std::size_t> facets_at(storey.wanted.bits.size());
+    for (const Facet& facet : facets)
+      if (!facet.cells.empty()) ++facets_at[facet.cells.front()];
+    Raster all = storey.wanted;
+    for (std::size_t i = 0; i < all.bits.size(); ++i) all.bits[i] |= storey.under.bits[i];
+    bool any = false;
+    for (const std::vector<std::size_t>& piece : pieces_of(all)) {
+      std::size_t count = 0;
+      for (const std::size_t i : piece) count += facets_at[i];
+      const double area = static_cast<double>(piece.size()) * all.cell * all.cell;
+      if (static_cast<double>(count) <= options_.max_facets * area) continue;
+      any = true;
+      for (const std::size_t i : piece) storey.wanted.bits[i] = storey.under.bits[i] = 0;
+    }
+    return any;
+  }
+
+  // Floors that most of the ground takes the place of go, and others are parts of it.
+  void replace_floors(const Storey& storey) {
+    for (const Flat* floor : storey.unfit) {
+      std::size_t all = 0, taken = 0;
+      for (const std::size_t i : floor->cells)
+        all += storey.seen.bits[i], taken += storey.seen.bits[i] && storey.wanted.bits[i];
+      if (2 * taken > all) dropped_[floor->surface] = 1;
+    }
+    note_parts(storey.wanted, storey.fit);
+  }
+
   std::size_t cells_of(double area) const {
     return static_cast<std::size_t>(area / (ground_.cells.cell * ground_.cells.cell));
   }
@@ -119,8 +167,9 @@ class GroundFinder {
   }
 
   // The ground of a storey that none of the floors that stay covers.
-  std::pair<Heights, Raster> uncovered(const Heights& heights) {
+  Storey uncovered(const Heights& heights) const {
     constexpr double kRoom = 1.5;  // [m] under a ceiling
+    constexpr double kSlab = 0.5;  // [m] or beside one: its upper side, or that of a roof
     const Heights seen = heights.smoothed(3, 2 * tolerance_);
     const Raster& known = seen.known;
     const int reach = std::max(1, static_cast<int>(std::lround(heights_.reach / known.cell)));
@@ -130,17 +179,17 @@ class GroundFinder {
     for (std::size_t i = 0; i < open.bits.size(); ++i)
       if (open.bits[i] && !known.bits[i]) ground.known.bits[i] = 0;
 
-    std::vector<const Flat*> fit, unfit;
+    Storey storey{.seen = known};
     Raster covered = surface::empty_like(known);
     std::vector<double> floor_height(known.bits.size(), -1e300);
     for (const Flat& floor : flats_) {
       const double off = share_off(floor, seen);
       if (off > 1) continue;
       if (off > options_.max_off) {
-        unfit.push_back(&floor);
+        storey.unfit.push_back(&floor);
         continue;
       }
-      fit.push_back(&floor);
+      storey.fit.push_back(&floor);
       for (const std::size_t i : floor.cells) {
         covered.bits[i] = 1;
         floor_height[i] = std::max(floor_height[i], floor.height_at(level_, known.middle(i)));
@@ -154,27 +203,23 @@ class GroundFinder {
     const Raster beside = surface::grow(covered, margin);
     for (std::size_t i = 0; i < counts.bits.size(); ++i) counts.bits[i] &= !beside.bits[i];
     for (const Flat& ceiling : ceilings_)
-      for (const std::size_t i : ceiling.cells)
-        if (ceiling.height_at(level_, known.middle(i)) > ground.height[i] + kRoom)
-          counts.bits[i] = 0;
+      for (const std::size_t i : ceiling.cells) {
+        const double over = ceiling.height_at(level_, known.middle(i)) - ground.height[i];
+        if (over > kRoom || std::abs(over) < kSlab) counts.bits[i] = 0;
+      }
     wanted = large_pieces(wanted, counts, cells_of(options_.min_area), options_.min_seen);
 
-    for (const Flat* floor : unfit) {
-      std::size_t all = 0, taken = 0;
-      for (const std::size_t i : floor->cells)
-        all += known.bits[i], taken += known.bits[i] && wanted.bits[i];
-      if (2 * taken > all) dropped_[floor->surface] = 1;
-    }
-    note_parts(wanted, fit);
     // A little goes on under the floors around; where it is over them, down to them.
     const Heights own{.known = wanted, .height = ground.height};
     const Heights under = filled(own, surface::grow(wanted, margin), margin + 2);
+    storey.under = surface::empty_like(known);
     for (std::size_t i = 0; i < wanted.bits.size(); ++i)
       if (covered.bits[i] && under.known.bits[i] && !wanted.bits[i]) {
-        wanted.bits[i] = ground.known.bits[i] = 1;
+        storey.under.bits[i] = ground.known.bits[i] = 1;
         ground.height[i] = std::min(under.height[i], floor_height[i]);
       }
-    return {std::move(ground), std::move(wanted)};
+    storey.ground = std::move(ground), storey.wanted = std::move(wanted);
+    return storey;
   }
 
   bool is_level(const Flat& floor) const {
@@ -314,6 +359,8 @@ OptionList list_options(GroundOptions& o) {
        "gaps in what is seen of it are closed up to twice this", 0},
       {"ground.min_area", &o.min_area, "m2", "that was seen of ground that no floor fits", 0},
       {"ground.min_seen", &o.min_seen, "", "share of such ground that was seen", 0, 1},
+      {"ground.max_facets", &o.max_facets, "1/m2",
+       "of a piece of it; stairs and heaps need more, and are none", 0},
       {"ground.min_floor", &o.min_floor, "m2", "of a floor that ground goes on from", 0},
       {"ground.max_off", &o.max_off, "",
        "share of a floor's cells off the ground; a floor with more is none", 0, 1},

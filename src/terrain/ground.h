@@ -14,6 +14,7 @@ struct GroundOptions {
   double min_area = 4;     // [m2] that was seen of ground that no floor fits; less is left
   double min_seen = 0.25;  // share of it; what is seen in few places may be anything
   double min_floor = 4;    // [m2] of a floor that ground goes on from
+  double max_facets = 20;  // [1/m2] of a piece of it; stairs and heaps need more, and are none
   double max_off = 0.2;    // share of a floor's cells off the ground; a floor with more is none
   double error = 0.75;     // [tolerance] facets are off the ground by no more
   double margin = 0.2;     // [m] ground goes on so far under what stands on it
