@@ -383,6 +383,7 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   const std::vector<FacePair> pairs = log.run("Pairing faces", "surfaces -> pairs", world.surfaces,
                                               [&] { return pair_faces(world, options.thickness); });
   set_thickness(world, pairs);
+  world.openings = hang_leaves(world, options.leaves);
   world.colliders = log.run("Making colliders", "surfaces -> colliders", world.surfaces,
                             [&] { return make_colliders(world, options.colliders); });
   if (options.method == Method::rival)

@@ -17,6 +17,7 @@
 #include "terrain/ground.h"
 #include "thesis/thesis.h"
 #include "world/colliders.h"
+#include "world/leaves.h"
 #include "world/level.h"
 #include "world/obstacles.h"
 #include "world/rooms.h"
@@ -37,6 +38,7 @@ struct ReconstructOptions {
   ObstacleOptions obstacles;  // and what no polygon explains
   ThicknessOptions thickness;
   ColliderOptions colliders;
+  LeafOptions leaves;
   RoomOptions rooms;
   LevelOptions frame;
   double floor_tolerance = 0.02;  // [m] what lies no higher on a floor is that floor: carpets

@@ -12,7 +12,7 @@ using namespace scanworld::rival;
 
 namespace {
 
-LabelledPoints label(const Stages& s, const LabelOptions& options = {}) {
+LabelledPoints label(const Stages& s, const rival::LabelOptions& options = {}) {
   return label_points(s.cloud, s.grid, s.neighbors, s.scale, s.confirm(), options);
 }
 

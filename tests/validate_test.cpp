@@ -102,6 +102,9 @@ TEST_CASE("each fault is found and named") {
                  "room 0: there is no surface 12"));
   CHECK(contains(reason([](World& w) { w.doors[0].rooms[1] = 4; }), "no room 4"));
   CHECK(contains(reason([](World& w) { w.doors[0].opening = 3; }), "no opening 3"));
+  CHECK(contains(reason([](World& w) { w.openings[0].leaf->surface = 9; }),
+                 "opening 7: the leaf: there is no surface 9"));
+  CHECK(contains(reason([](World& w) { w.openings[0].leaf->angle = 4; }), "the leaf's angle 4"));
   CHECK(
       contains(reason([](World& w) { w.ways[0].floors[0] = 9; }), "way 3: there is no surface 9"));
   CHECK(contains(reason([](World& w) { w.ways[0].rooms[1] = 9; }), "way 3: there is no room 9"));

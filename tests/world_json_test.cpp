@@ -61,6 +61,8 @@ TEST_CASE("what is wrong in a file is named by its place") {
   CHECK(contains(error_with(P("/frame/unit"), "ft"), "'m'"));
   CHECK(contains(error_with(P("/obstacles/0/cylinder"), Json::object()),
                  "one of box, hull and cylinder"));
+  CHECK(contains(error_with(P("/openings/0/leaf/hinge"), "top"), "'top' is none of left, right"));
+  CHECK(contains(error_with(P("/openings/0/leaf/opens_to"), "up"), "'up' is none of front, back"));
   CHECK(contains(error_with(P("/ways/0/kind"), "lift"), "'lift' is none of stairs, ramp"));
   CHECK(contains(error_with(P("/ways/0/kind"), "ramp"),
                  "world.ways[0]: a way of kind ramp has no 'steps'"));
@@ -103,6 +105,7 @@ TEST_CASE(
   CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
   world.ways.clear();
   CHECK(Json::parse(world_text(world))["schema"]["version"] == 2);
+  world.openings[0].leaf.reset();
   world.curves.clear();
   world.surfaces[1].curve.reset(), world.obstacles[2].curve.reset();
   const std::string flat = world_text(world);

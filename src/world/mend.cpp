@@ -266,7 +266,15 @@ Mended leave_out_invalid(World world) {
   for (const Surface& s : kept.world.surfaces)
     kept.from.push_back(
         static_cast<std::size_t>(find_surface(world, s.id) - world.surfaces.data()));
-  keep_valid(world, &World::openings, beside_its_surface, kept);
+  for (Opening& o : world.openings)
+    if (o.leaf && !find_surface(kept.world, o.leaf->surface)) o.leaf.reset();
+  const auto beside_surfaces = [&](const Opening& o) {
+    World trial = beside_its_surface(o);
+    if (o.leaf && o.leaf->surface != o.surface)
+      trial.surfaces.push_back(*find_surface(kept.world, o.leaf->surface));
+    return trial;
+  };
+  keep_valid(world, &World::openings, beside_surfaces, kept);
   keep_valid(world, &World::colliders, beside_its_surface, kept);
   keep_valid(world, &World::obstacles, beside_nothing, kept);
   for (Room& room : world.rooms)

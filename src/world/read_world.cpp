@@ -160,8 +160,18 @@ Surface read_surface(const Node& n) {
   return s;
 }
 
+Leaf read_leaf(const Node& n) {
+  n.expect_keys({"surface", "angle", "hinge", "opens_to"});
+  const std::string to = n.at("opens_to").text();
+  if (to != "front" && to != "back")
+    n.at("opens_to").fail(fmt::format("'{}' is none of front, back", to.substr(0, 60)));
+  return {n.at("surface").integer(), n.at("angle").number(),
+          n.at("hinge").one_of({LeafHinge::left, LeafHinge::right}), to == "front"};
+}
+
 Opening read_opening(const Node& n) {
-  n.expect_keys({"id", "kind", "surface", "loop", "width", "height", "evidence", "?glass"});
+  n.expect_keys(
+      {"id", "kind", "surface", "loop", "width", "height", "evidence", "?glass", "?leaf"});
   return {
       .id = n.at("id").integer(),
       .kind = n.at("kind").one_of({OpeningKind::door, OpeningKind::window, OpeningKind::passage}),
@@ -170,7 +180,8 @@ Opening read_opening(const Node& n) {
       .width = n.at("width").number(),
       .height = n.at("height").number(),
       .evidence = n.at("evidence").text(),
-      .glass = n.has("glass") && n.at("glass").boolean()};
+      .glass = n.has("glass") && n.at("glass").boolean(),
+      .leaf = n.has("leaf") ? std::optional(read_leaf(n.at("leaf"))) : std::nullopt};
 }
 
 OrientedBox read_box(const Node& n) {

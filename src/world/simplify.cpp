@@ -67,6 +67,8 @@ void drop_dangling(World& world) {
   const std::set<int> kept = surface_ids(world);
   std::erase_if(world.colliders, [&](const Collider& c) { return !kept.contains(c.surface); });
   std::erase_if(world.openings, [&](const Opening& o) { return !kept.contains(o.surface); });
+  for (Opening& o : world.openings)
+    if (o.leaf && !kept.contains(o.leaf->surface)) o.leaf.reset();
   std::set<int> openings;
   for (const Opening& o : world.openings) openings.insert(o.id);
   std::erase_if(world.doors, [&](const Door& d) { return !openings.contains(d.opening); });

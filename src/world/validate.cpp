@@ -139,6 +139,12 @@ class Validator {
     if (r.center) check_place(name + ": the center", *r.center);
   }
 
+  void check(const std::string& name, const Leaf& leaf) {
+    check_surface_id(name + ": the leaf", leaf.surface);
+    if (!(leaf.angle >= 0 && leaf.angle <= M_PI))
+      report("{}: the leaf's angle {} is not from 0 to pi", name, leaf.angle);
+  }
+
   void check(const Way& w, const std::set<int>& rooms) {
     const std::string name = fmt::format("way {}", w.id);
     check_place(name + ": the foot", w.foot);
@@ -225,6 +231,7 @@ class Validator {
     const std::string name = fmt::format("opening {}", o.id);
     check_size(name, "width", o.width);
     check_size(name, "height", o.height);
+    if (o.leaf) check(name, *o.leaf);
     const Surface* surface = find_surface(world_, o.surface);
     if (!surface) return check_surface_id(name, o.surface);
     if (!check_loop(name, "the loop", o.loop, surface->plane)) return;

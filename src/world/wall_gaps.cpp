@@ -15,14 +15,14 @@ namespace {
 using Box2 = Eigen::AlignedBox2d;
 
 constexpr double kSameCosine = 0.9999, kSameOffset = 0.002;  // [m] surfaces are in one plane
-constexpr double kUpright = 0.3;     // cosine of a wall's normal to up, at most
-constexpr double kSquare = 0.2;      // of a side's normal to a direction in the wall, at most
-constexpr double kSlope = 0.3;       // of an edge that ends a gap, off upright or level
-constexpr double kLeastEdge = 0.05;  // [m] of such an edge
-constexpr double kSame = 0.005;      // [m] places are one
-constexpr double kBeside = 0.1;      // [m] before a wall, where a floor ends that is at it
-constexpr double kRoom = 0.4;        // [m] from a wall, so far a floor goes at least
-constexpr double kFloor = 2;         // [m2] smaller ones may be tables
+constexpr double kUprightWall = 0.3;  // cosine of a wall's normal to up, at most
+constexpr double kSquare = 0.2;       // of a side's normal to a direction in the wall, at most
+constexpr double kSlope = 0.3;        // of an edge that ends a gap, off upright or level
+constexpr double kLeastEdge = 0.05;   // [m] of such an edge
+constexpr double kSame = 0.005;       // [m] places are one
+constexpr double kBeside = 0.1;       // [m] before a wall, where a floor ends that is at it
+constexpr double kRoom = 0.4;         // [m] from a wall, so far a floor goes at least
+constexpr double kFloor = 2;          // [m2] smaller ones may be tables
 constexpr double kBesideCosine = 0.95, kClose = 0.1;  // [m] of what closes a gap of a face
 constexpr double kInside = 0.012;        // [m] less of a surface in a row does not close it
 constexpr double kNearSide = 0.03;       // [m] off a side of a gap, where what is beside it begins
@@ -348,7 +348,7 @@ std::vector<WallFace> wall_faces_of(const World& world) {
   std::vector<WallFace> faces;
   for (std::size_t s = 0; s < world.surfaces.size(); ++s) {
     const Surface& surface = world.surfaces[s];
-    if (std::abs(surface.plane.normal.dot(world.frame.up)) > kUpright) continue;
+    if (std::abs(surface.plane.normal.dot(world.frame.up)) > kUprightWall) continue;
     const Vec3& corner = world.vertices[static_cast<std::size_t>(surface.outer[0])];
     auto face = std::find_if(faces.begin(), faces.end(), [&](const WallFace& f) {
       return f.plane.normal.dot(surface.plane.normal) > kSameCosine &&

@@ -48,6 +48,11 @@ const char* name_of(OpeningKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+const char* name_of(LeafHinge hinge) {
+  static constexpr const char* names[] = {"left", "right"};
+  return names[static_cast<int>(hinge)];
+}
+
 const char* name_of(WayKind kind) {
   static constexpr const char* names[] = {"stairs", "ramp"};
   return names[static_cast<int>(kind)];

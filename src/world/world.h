@@ -42,6 +42,18 @@ struct Surface {
 
 enum class OpeningKind { door, window, passage };
 
+enum class LeafHinge { left, right };
+
+// A door's leaf that stands open, a surface of its own.
+struct Leaf {
+  int surface = 0;   // id
+  double angle = 0;  // [rad] from closed
+  // The side that it hangs on, for who stands before the opening's surface and looks at it.
+  LeafHinge hinge = LeafHinge::left;
+  bool to_front = false;  // whether it opens to where that surface looks, or to the other side
+  bool operator==(const Leaf&) const = default;
+};
+
 // Where one can see or go through a surface. Its loop lies in the surface's plane: around one of
 // its holes, or along a notch in its outer loop.
 struct Opening {
@@ -52,6 +64,7 @@ struct Opening {
   double width = 0, height = 0;  // [m] clear
   std::string evidence;          // how it is known, in words
   bool glass = false;            // a window with a pane in it
+  std::optional<Leaf> leaf = {};
   bool operator==(const Opening&) const = default;
 };
 
@@ -190,6 +203,7 @@ const char* name_of(Kind kind);
 const char* name_of(Source source);
 const char* name_of(OpeningKind kind);
 const char* name_of(WayKind kind);
+const char* name_of(LeafHinge hinge);
 const char* name_of(CurveType type);
 
 // Of any triangulation without further vertices.

@@ -65,6 +65,11 @@ Json to_json(const Opening& o) {
       {"id", o.id},       {"kind", name_of(o.kind)}, {"surface", o.surface},  {"loop", o.loop},
       {"width", o.width}, {"height", o.height},      {"evidence", o.evidence}};
   if (o.glass) j["glass"] = true;
+  if (o.leaf)
+    j["leaf"] = {{"surface", o.leaf->surface},
+                 {"angle", o.leaf->angle},
+                 {"hinge", name_of(o.leaf->hinge)},
+                 {"opens_to", o.leaf->to_front ? "front" : "back"}};
   return j;
 }
 
@@ -152,11 +157,13 @@ Json list_of(const std::vector<T>& items) {
 }
 
 Json to_json(const World& w) {
-  // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it,
-  // and no stairs.
+  // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it, no
+  // stairs and no leaf.
   const bool is_plain = w.curves.empty() && w.ways.empty() &&
-                        std::all_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
-                          return s.inferred.empty() && !s.ground;
+                        std::none_of(w.openings.begin(), w.openings.end(),
+                                     [](const Opening& o) { return o.leaf.has_value(); }) &&
+                        std::none_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
+                          return !s.inferred.empty() || s.ground;
                         });
   const int version = is_plain ? 1 : kWorldSchemaVersion;
   Json j = {{"schema", {{"name", "scanworld"}, {"version", version}}},

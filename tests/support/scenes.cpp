@@ -83,7 +83,8 @@ World full_world() {
                             .loop = {8, 9, 10, 11},
                             .width = 1,
                             .height = 1,
-                            .evidence = "seen through"});
+                            .evidence = "seen through",
+                            .leaf = Leaf{0, 1.0 / 3, LeafHinge::right, true}});
   world.openings[0].loop = world.surfaces[1].holes[0];
   world.obstacles = {
       {.id = 0,

@@ -49,6 +49,7 @@ function opening_facts(page: Page, index: number): Facts {
     ['Clear width', `${o.width.toFixed(3)} m`],
     ['Clear height', `${o.height.toFixed(3)} m`],
     ['In surface', String(page.world.surfaces[o.surface]!.id)],
+    ...(o.leaf ? ([['Leaf', `surface ${page.world.surfaces[o.leaf.surface]!.id}, ${((o.leaf.angle * 180) / Math.PI).toFixed(0)}° open, hinge ${o.leaf.hinge}`]] as Facts) : []),
     ...(door ? ([['Joins', door.rooms.map((r) => page.world.rooms[r]!.name).join(' and ')]] as Facts) : []),
     ['Evidence', o.evidence],
   ];

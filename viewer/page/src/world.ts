@@ -32,6 +32,7 @@ export interface Opening {
   height: number;
   evidence: string;
   glass: boolean;
+  leaf: { surface: number; angle: number; hinge: 'left' | 'right' } | null; // an index
 }
 
 export type Solid =
@@ -145,6 +146,7 @@ function read_openings(root: Place, surfaces: Ids, vertices: number): Opening[] 
     height: p.at('height').number(),
     evidence: p.at('evidence').optional((t) => t.text()) ?? '',
     glass: p.at('glass').value === true,
+    leaf: p.at('leaf').optional((l) => ({ surface: surfaces.find(l.at('surface')), angle: l.at('angle').number(), hinge: l.at('hinge').one_of(['left', 'right'] as const) })),
   }));
 }
 
