@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
 
-#include "../polygon.h"
 #include "../quantile.h"
-#include "plan_grid.h"
+#include "way_profile.h"
 
 namespace scanworld {
 
@@ -20,45 +18,6 @@ constexpr double kOffRiser = 0.25;    // [riser] a tread is off where it should 
 constexpr double kOffTread = 0.3;     // [tread] the same in plan
 constexpr double kBeyondEnd = 0.1;    // [m] so far beyond its end there is a floor
 constexpr double kSameHeight = 0.05;  // [m] as a ramp's end
-constexpr double kJoint = 0.05;       // [m] between pieces of one floor
-constexpr double kSameLevel = 0.03;   // [m] the same in height
-constexpr double kSameSlope = 0.999;  // cosine of 2.6 degrees
-constexpr std::array kLines = {0.25, 0.5, 0.75};  // of the width, where a way is cut along
-
-// What looks up, seen from above.
-struct Level {
-  std::size_t surface = 0;  // index
-  Vec3 normal = Vec3::UnitZ();
-  double offset = 0;
-  std::vector<std::vector<Vec2>> rings;
-  Rectangle box;
-
-  double height(const Vec2& p) const { return -(normal.head<2>().dot(p) + offset) / normal.z(); }
-};
-
-// A way's middle line in plan, from where it goes up.
-struct Axis {
-  Vec2 from = Vec2::Zero(), along = Vec2::UnitX();
-  double width = 0;
-
-  Vec2 across() const { return {-along.y(), along.x()}; }
-  Vec2 at(double u) const { return from + u * along; }
-};
-
-// A piece of a line that lies on a level.
-struct Stretch {
-  std::size_t level = 0;
-  double from = 0, to = 0;  // [m] along the line
-};
-
-// What an axis meets on each of its lines.
-struct Profile {
-  const std::vector<Level>& levels;
-  Axis axis;
-  std::array<std::vector<Stretch>, kLines.size()> lines;
-
-  double height(const Stretch& s, double u) const { return levels[s.level].height(axis.at(u)); }
-};
 
 // What most lines meet at one place.
 struct Step {
@@ -73,81 +32,11 @@ struct Flight {
   bool begins = false, ends = false;  // at a floor
 };
 
-std::vector<Level> levels_of(const World& world, const Upright& upright, double max_slope) {
-  std::vector<Level> levels;
-  for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
-    const Surface& s = world.surfaces[i];
-    if (upright.normals[i].z() < std::cos(max_slope)) continue;
-    Level level{.surface = i, .normal = upright.normals[i], .offset = s.plane.offset};
-    const auto add = [&](const Loop& loop) {
-      level.rings.emplace_back();
-      for (const Vec3& v : upright.ring(loop)) level.rings.back().push_back(v.head<2>());
-    };
-    add(s.outer);
-    for (const Loop& hole : s.holes) add(hole);
-    for (const Vec2& p : level.rings[0]) level.box.extend(p);
-    levels.push_back(std::move(level));
-  }
-  return levels;
-}
-
-// Where a line goes over a level.
-void add_stretches(const Level& level, std::size_t index, const Vec2& origin, const Vec2& along,
-                   std::vector<Stretch>& stretches) {
-  const Vec2 across(-along.y(), along.x());
-  if (std::abs(across.dot(level.box.center() - origin)) > level.box.diagonal().norm() / 2) return;
-  std::vector<double> ends;
-  for (const auto& ring : level.rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 p = ring[i] - origin, q = ring[(i + 1) % ring.size()] - origin;
-      const double a = across.dot(p), b = across.dot(q);
-      if ((a < 0) == (b < 0)) continue;
-      ends.push_back(along.dot(p) + along.dot(q - p) * (a / (a - b)));
-    }
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
-    stretches.push_back({index, ends[i], ends[i + 1]});
-}
-
-// Stretches that go on from each other at one height and slope are one, of the longer's level: a
-// landing may be several surfaces.
-std::vector<Stretch> joined(std::vector<Stretch> stretches, const Profile& profile) {
-  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
-    return std::tie(a.from, a.to, a.level) < std::tie(b.from, b.to, b.level);
-  });
-  std::vector<Stretch> result;
-  for (const Stretch& s : stretches) {
-    const auto before = std::find_if(result.begin(), result.end(), [&](const Stretch& r) {
-      return s.from <= r.to + kJoint && s.from > r.from + kJoint &&
-             std::abs(profile.height(r, s.from) - profile.height(s, s.from)) <= kSameLevel &&
-             profile.levels[r.level].normal.dot(profile.levels[s.level].normal) >= kSameSlope;
-    });
-    if (before == result.end()) {
-      result.push_back(s);
-      continue;
-    }
-    if (s.to - s.from > before->to - before->from) before->level = s.level;
-    before->to = std::max(before->to, s.to);
-  }
-  return result;
-}
-
-Profile profile_of(const std::vector<Level>& levels, const Axis& axis) {
-  Profile profile{.levels = levels, .axis = axis, .lines = {}};
-  for (std::size_t line = 0; line < kLines.size(); ++line) {
-    const Vec2 origin = axis.from + (kLines[line] - 0.5) * axis.width * axis.across();
-    for (std::size_t i = 0; i < levels.size(); ++i)
-      add_stretches(levels[i], i, origin, axis.along, profile.lines[line]);
-    profile.lines[line] = joined(std::move(profile.lines[line]), profile);
-  }
-  return profile;
-}
-
 // What two lines or more meet that pleases, with its height at a place; of more on one line the
 // first.
 template <typename Pleases>
-std::optional<Step> step_where(const Profile& profile, double u, const Pleases& pleases) {
-  std::vector<Stretch> met;
+std::optional<Step> step_where(const WayProfile& profile, double u, const Pleases& pleases) {
+  std::vector<WayStretch> met;
   for (const auto& line : profile.lines) {
     const auto found = std::find_if(line.begin(), line.end(), pleases);
     if (found != line.end()) met.push_back(*found);
@@ -155,10 +44,10 @@ std::optional<Step> step_where(const Profile& profile, double u, const Pleases& 
   if (met.size() < 2) return std::nullopt;
   const auto middle = [&](auto member) {
     std::vector<double> values;
-    for (const Stretch& s : met) values.push_back(s.*member);
+    for (const WayStretch& s : met) values.push_back(s.*member);
     return median(values);
   };
-  return Step{0, met[1].level, middle(&Stretch::from), middle(&Stretch::to),
+  return Step{0, met[1].level, middle(&WayStretch::from), middle(&WayStretch::to),
               profile.height(met[1], u)};
 }
 
@@ -178,7 +67,7 @@ Line line_through(const std::vector<Step>& steps, double Step::*value) {
 }
 
 // Follows a flight from one of its treads, up or down.
-void follow(const Profile& profile, int way, const WayOptions& options, Flight& flight) {
+void follow(const WayProfile& profile, int way, const WayOptions& options, Flight& flight) {
   std::vector<Step> treads = flight.steps;  // without a floor below, whose `from` says nothing
   const Step start = treads[0];
   int missing = 0;
@@ -186,16 +75,16 @@ void follow(const Profile& profile, int way, const WayOptions& options, Flight& 
     const double height = start.height + flight.riser * (k - start.k);
     const double from = start.from + flight.tread * (k - start.k);
     const double off = kOffTread * flight.tread;
-    const auto is_at = [&](const Stretch& s, double u) {
+    const auto is_at = [&](const WayStretch& s, double u) {
       return std::abs(profile.height(s, u) - height) <= kOffRiser * flight.riser;
     };
-    auto step = step_where(profile, from, [&](const Stretch& s) {
+    auto step = step_where(profile, from, [&](const WayStretch& s) {
       return is_at(s, from) && std::abs(s.from - from) <= off;
     });
     bool is_floor = step && step->to - step->from >= options.min_floor && way > 0;
     if (!step && way < 0) {
       const double end = from + flight.tread;
-      step = step_where(profile, end, [&](const Stretch& s) {
+      step = step_where(profile, end, [&](const WayStretch& s) {
         return is_at(s, end) && s.from < from - off && s.to >= end - off;
       });
       is_floor = step.has_value();
@@ -218,9 +107,9 @@ void follow(const Profile& profile, int way, const WayOptions& options, Flight& 
 }
 
 // The longest flight that a tread on an axis is part of.
-Flight flight_at(const Profile& profile, const Step& seed, const WayOptions& options) {
+Flight flight_at(const WayProfile& profile, const Step& seed, const WayOptions& options) {
   Flight best;
-  for (const Stretch& next : profile.lines[kLines.size() / 2]) {
+  for (const WayStretch& next : profile.lines[kWayLines.size() / 2]) {
     const double riser = profile.height(next, next.from) - seed.height;
     const double tread = next.from - seed.from;
     if (riser < options.min_riser || riser > options.max_riser || tread < options.min_tread ||
@@ -235,25 +124,6 @@ Flight flight_at(const Profile& profile, const Step& seed, const WayOptions& opt
   std::sort(best.steps.begin(), best.steps.end(),
             [](const Step& a, const Step& b) { return a.k < b.k; });
   return best;
-}
-
-// Lowest and highest along a direction.
-std::pair<double, double> range_along(const Level& level, const Vec2& direction) {
-  double low = std::numeric_limits<double>::max(), high = -low;
-  for (const Vec2& p : level.rings[0]) {
-    low = std::min(low, direction.dot(p));
-    high = std::max(high, direction.dot(p));
-  }
-  return {low, high};
-}
-
-// The axis over a level, towards a direction.
-Axis axis_over(const Level& level, const Vec2& along) {
-  Axis axis{.along = along};
-  const auto [low, high] = range_along(level, axis.across());
-  axis.width = high - low;
-  axis.from = (low + high) / 2 * axis.across() + range_along(level, along).first * along;
-  return axis;
 }
 
 Vec2 longest_edge(const std::vector<Vec2>& ring) {
@@ -275,7 +145,7 @@ class Finder {
 
   std::vector<Way> run() {
     find_stairs();
-    for (const Level& level : levels_) find_ramp(level);
+    for (const WalkLevel& level : levels_) find_ramp(level);
     std::stable_sort(ways_.begin(), ways_.end(), [&](const Way& a, const Way& b) {
       return world_.frame.up.dot(a.foot) < world_.frame.up.dot(b.foot);
     });
@@ -285,28 +155,28 @@ class Finder {
 
  private:
   struct Found {
-    Axis axis;
+    WayAxis axis;
     Flight flight;
   };
 
-  double slope(const Level& level) const { return std::acos(std::min(1.0, level.normal.z())); }
+  double slope(const WalkLevel& level) const { return std::acos(std::min(1.0, level.normal.z())); }
 
-  bool is_tread(const Level& level) const {
+  bool is_tread(const WalkLevel& level) const {
     return !world_.surfaces[level.surface].ground && slope(level) < options_.min_slope;
   }
 
   // Flights by what was found of them; each tread is of the first that it is in.
   void find_stairs() {
     std::vector<Found> found;
-    for (const Level& level : levels_) {
+    for (const WalkLevel& level : levels_) {
       if (!is_tread(level)) continue;
       const Vec2 edge = longest_edge(level.rings[0]);
       for (const Vec2& along : {Vec2(edge.y(), -edge.x()), Vec2(-edge.y(), edge.x())}) {
-        const Axis axis = axis_over(level, along);
+        const WayAxis axis = axis_over(level, along);
         if (axis.width < options_.min_width) continue;
         const auto [low, high] = range_along(level, along);
         if (high - low > options_.max_tread) continue;
-        const Profile profile = profile_of(levels_, axis);
+        const WayProfile profile = profile_of(levels_, axis);
         const Step seed{0, static_cast<std::size_t>(&level - levels_.data()), 0, high - low,
                         level.height(axis.from)};
         Flight flight = flight_at(profile, seed, options_);
@@ -382,20 +252,20 @@ class Finder {
     return (place * 1e6).array().round() / 1e6;
   }
 
-  void find_ramp(const Level& level) {
+  void find_ramp(const WalkLevel& level) {
     if (world_.surfaces[level.surface].ground || slope(level) < options_.min_slope) return;
-    const Axis axis = axis_over(level, -level.normal.head<2>().normalized());
+    const WayAxis axis = axis_over(level, -level.normal.head<2>().normalized());
     if (axis.width < options_.min_width) return;
-    const Profile profile = profile_of(levels_, axis);
+    const WayProfile profile = profile_of(levels_, axis);
     const auto index = static_cast<std::size_t>(&level - levels_.data());
-    const auto ramp = step_where(profile, 0, [&](const Stretch& s) {
+    const auto ramp = step_where(profile, 0, [&](const WayStretch& s) {
       return s.level == index && s.to - s.from >= options_.min_floor;
     });
     if (!ramp) return;
     const double foot = level.height(axis.at(ramp->from)), top = level.height(axis.at(ramp->to));
     if (top - foot < options_.min_rise) return;
     const auto floor_at = [&](double u, double height) {
-      return step_where(profile, u, [&](const Stretch& s) {
+      return step_where(profile, u, [&](const WayStretch& s) {
         return s.level != index && s.from <= u && s.to >= u &&
                slope(levels_[s.level]) < slope(level) / 2 &&
                std::abs(profile.height(s, u) - height) <= kSameHeight;
@@ -415,7 +285,7 @@ class Finder {
   const World& world_;
   const Upright& upright_;
   const WayOptions& options_;
-  const std::vector<Level> levels_;
+  const std::vector<WalkLevel> levels_;
   std::vector<Way> ways_;
 };
 
