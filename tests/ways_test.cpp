@@ -63,7 +63,7 @@ TEST_CASE("stairs are the same in a tilted world") {
   CHECK(ways[0].width == doctest::Approx(1).epsilon(1e-4));
 }
 
-TEST_CASE("treads that were not seen are counted, as long as no more than three are missing") {
+TEST_CASE("treads that were not seen are counted, as long as fewer are missing than there are") {
   auto surfaces = flight();
   surfaces.erase(surfaces.begin() + 1, surfaces.begin() + 3);  // the first two
   surfaces.erase(surfaces.begin() + 3);                        // and the fifth

@@ -13,7 +13,7 @@ namespace scanworld {
 
 namespace {
 
-constexpr int kMostMissing = 3;       // steps after each other that nothing was seen of
+constexpr int kMostMissing = 6;       // steps after each other that nothing was seen of
 constexpr double kOffRiser = 0.25;    // [riser] a tread is off where it should be, at most
 constexpr double kOffTread = 0.3;     // [tread] the same in plan
 constexpr double kBeyondEnd = 0.1;    // [m] so far beyond its end there is a floor
@@ -113,7 +113,8 @@ Flight flight_at(const WayProfile& profile, const Step& seed, const WayOptions& 
     const double riser = profile.height(next, next.from) - seed.height;
     const double tread = next.from - seed.from;
     if (riser < options.min_riser || riser > options.max_riser || tread < options.min_tread ||
-        tread > options.max_tread)
+        tread > options.max_tread || 2 * riser + tread < options.min_pace ||
+        2 * riser + tread > options.max_pace)
       continue;
     Flight flight{.steps = {seed}, .riser = riser, .tread = tread};
     follow(profile, +1, options, flight);
@@ -302,6 +303,8 @@ OptionList list_options(WayOptions& o) {
       {"ways.max_riser", &o.max_riser, "m", "of stairs", 0.01},
       {"ways.min_tread", &o.min_tread, "m", "of stairs", 0.01},
       {"ways.max_tread", &o.max_tread, "m", "of stairs", 0.01},
+      {"ways.min_pace", &o.min_pace, "m", "of stairs: twice the riser and the tread", 0},
+      {"ways.max_pace", &o.max_pace, "m", "of stairs", 0},
       {"ways.min_steps", &o.min_steps, "", "risers of stairs", 2, 100},
       {"ways.min_slope", &o.min_slope, "rad", "of a ramp; less is a floor", 0.01},
       {"ways.max_slope", &o.max_slope, "rad", "of a ramp; more is a roof", 0.01},
