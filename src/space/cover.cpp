@@ -66,19 +66,14 @@ std::vector<float> distance_around(const Cover& cover, const Raster& blocked) {
   return distance;
 }
 
-// [m2] of a raster that is set.
-double set_area(const Raster& raster) {
-  return static_cast<double>(std::count(raster.bits.begin(), raster.bits.end(), 1)) * raster.cell *
-         raster.cell;
-}
-
 // Whether a patch is the floor of a room: it looks up, and ceilings are over a part of it. Ground
 // under the sky bends, and its planes must not run far.
-bool is_room_floor(const Patch& patch, const std::vector<Patch>& patches, const Vec3& up) {
+bool is_room_floor(const Patch& patch, double area, const std::vector<Patch>& patches,
+                   const Vec3& up) {
   constexpr double kHeadroom = 1.5, kHighest = 10;  // [m] a ceiling is over a floor
   constexpr double kLeast = 0.25;                   // of the floor that is under ceilings
-  if (patch.hit.bits.empty() || patch.plane.normal.dot(up) < kLevelCosine) return false;
-  double left = kLeast * set_area(patch.covered);
+  if (patch.plane.normal.dot(up) < kLevelCosine) return false;
+  double left = kLeast * area;
   for (const Patch& ceiling : patches) {
     if (ceiling.hit.bits.empty() || ceiling.plane.normal.dot(up) > -kLevelCosine) continue;
     const double square = ceiling.covered.cell * ceiling.covered.cell;
@@ -94,14 +89,23 @@ bool is_room_floor(const Patch& patch, const std::vector<Patch>& patches, const 
   return false;
 }
 
-Cover cover_of(const Patch& patch, bool is_indoors, const Sight& sight,
+// How far a patch may go on [m]. Only of one that is large it is asked whether it is a floor.
+double reach_of(const Patch& patch, double area, const std::vector<Patch>& patches, const Vec3& up,
+                const CoverOptions& options) {
+  const double reach = options.reach_share * std::sqrt(area);
+  const bool is_floor = reach > std::min(options.max_reach, options.floor_reach) &&
+                        is_room_floor(patch, area, patches, up);
+  return std::clamp(reach, options.min_reach, is_floor ? options.floor_reach : options.max_reach);
+}
+
+Cover cover_of(const Patch& patch, const std::vector<Patch>& patches, const Sight& sight,
                const CoverOptions& options) {
   Cover cover{.plane = patch.plane, .frame = patch.frame};
   if (patch.hit.bits.empty()) return cover;
   const double cell = patch.hit.cell;
-  cover.area = set_area(patch.covered);
-  cover.reach = std::clamp(options.reach_share * std::sqrt(cover.area), options.min_reach,
-                           is_indoors ? options.floor_reach : options.max_reach);
+  const auto cells = std::count(patch.covered.bits.begin(), patch.covered.bits.end(), 1);
+  cover.area = static_cast<double>(cells) * cell * cell;
+  cover.reach = reach_of(patch, cover.area, patches, sight.up(), options);
   const int more = static_cast<int>(std::ceil(cover.reach / cell));
   const Raster& supported = cover.supported = widened(patch.covered, more);
   cover.distance = distance_around(cover, empty_like(supported));
@@ -154,10 +158,8 @@ std::vector<Cover> find_covers(const std::vector<Patch>& patches,
                                const std::vector<surface::Seam>& seams, const Sight& sight,
                                const CoverOptions& options) {
   std::vector<Cover> covers(patches.size());
-  parallel_for(patches.size(), [&](std::size_t k) {
-    const bool is_indoors = is_room_floor(patches[k], patches, sight.up());
-    covers[k] = cover_of(patches[k], is_indoors, sight, options);
-  });
+  parallel_for(patches.size(),
+               [&](std::size_t k) { covers[k] = cover_of(patches[k], patches, sight, options); });
   std::vector<std::vector<const surface::Seam*>> seams_of(patches.size());
   for (const surface::Seam& seam : seams)
     for (const int k : {seam.a, seam.b}) seams_of[static_cast<std::size_t>(k)].push_back(&seam);
