@@ -108,11 +108,16 @@ class GroundFinder {
     Raster wanted;                        // where no floor that stays covers it ...
     Raster under;                         // ... and a little under those
     std::vector<const Flat*> fit, unfit;  // floors that stay, and that may give way
+
+    Raster all() const {
+      Raster cells = wanted;
+      for (std::size_t i = 0; i < cells.bits.size(); ++i) cells.bits[i] |= under.bits[i];
+      return cells;
+    }
   };
 
   std::vector<Facet> cut(const Storey& storey) const {
-    Raster all = storey.wanted;
-    for (std::size_t i = 0; i < all.bits.size(); ++i) all.bits[i] |= storey.under.bits[i];
+    const Raster all = storey.all();
     if (std::count(all.bits.begin(), all.bits.end(), 1) == 0) return {};
     return cut_facets(storey.ground, all, storey.seen, options_.error * tolerance_);
   }
@@ -122,8 +127,7 @@ class GroundFinder {
     std::vector<std::size_t> facets_at(storey.wanted.bits.size());
     for (const Facet& facet : facets)
       if (!facet.cells.empty()) ++facets_at[facet.cells.front()];
-    Raster all = storey.wanted;
-    for (std::size_t i = 0; i < all.bits.size(); ++i) all.bits[i] |= storey.under.bits[i];
+    const Raster all = storey.all();
     bool any = false;
     for (const std::vector<std::size_t>& piece : pieces_of(all)) {
       std::size_t count = 0;
