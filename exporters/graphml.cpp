@@ -37,12 +37,16 @@ XmlElement node_of(const PlaceNode& room) {
   return node;
 }
 
+XmlElement edge_between(const std::array<int, 2>& rooms) {
+  return {
+      "edge",
+      {{"source", fmt::format("room_{}", rooms[0])}, {"target", fmt::format("room_{}", rooms[1])}},
+      {},
+      ""};
+}
+
 XmlElement edge_of(const PlaceEdge& door) {
-  XmlElement edge{"edge",
-                  {{"source", fmt::format("room_{}", door.rooms[0])},
-                   {"target", fmt::format("room_{}", door.rooms[1])}},
-                  {},
-                  ""};
+  XmlElement edge = edge_between(door.rooms);
   add_data(edge, "opening", fmt::format("{}", door.opening));
   add_data(edge, "kind", name_of(door.kind));
   add_number(edge, "width", door.width);
@@ -52,11 +56,7 @@ XmlElement edge_of(const PlaceEdge& door) {
 }
 
 XmlElement edge_of(const PlaceClimb& climb) {
-  XmlElement edge{"edge",
-                  {{"source", fmt::format("room_{}", climb.rooms[0])},
-                   {"target", fmt::format("room_{}", climb.rooms[1])}},
-                  {},
-                  ""};
+  XmlElement edge = edge_between(climb.rooms);
   add_data(edge, "ways", fmt::format("{}", fmt::join(climb.ways, " ")));
   add_data(edge, "kind", name_of(climb.kind));
   add_number(edge, "width", climb.width);
