@@ -73,11 +73,7 @@ World prepare_export(World world, const ExportOptions& options) {
     set_thickness(world, pair_faces(world));
     world.colliders = make_colliders(world);
   }
-  if (world.rooms.empty()) {
-    RoomMap map = find_rooms(world);
-    world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
-    world.ways = std::move(map.ways);
-  }
+  if (world.rooms.empty()) set_rooms(world, find_rooms(world));
   // Last, as solids and rooms are made of the whole.
   world = leave_out(std::move(world), options.without);
   if (!options.without.empty() && world.surfaces.empty() && world.obstacles.empty())

@@ -396,10 +396,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   result.labels = distinct.expand(std::move(result.labels));
   result.curve_labels = distinct.expand(std::move(result.curve_labels));
   world = level_world(std::move(world), options.frame);
-  RoomMap map = log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
-                        [&] { return find_rooms(world, options.rooms); });
-  world.rooms = std::move(map.rooms), world.doors = std::move(map.doors);
-  world.ways = std::move(map.ways);
+  set_rooms(world, log.run("Finding rooms", "surfaces -> rooms", world.surfaces,
+                           [&] { return find_rooms(world, options.rooms); }));
   take(leave_out_invalid(world), result);
 
   result.replay = std::move(recorder).finish(world.frame, cloud.origin);

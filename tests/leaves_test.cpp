@@ -46,12 +46,12 @@ TEST_CASE("a leaf ajar is told with its angle, its hinge and where it opens to")
   CHECK(leaf->surface == 1);
   CHECK(leaf->angle == doctest::Approx(M_PI / 3));
   CHECK(leaf->hinge == LeafHinge::right);
-  CHECK(leaf->to_front);
+  CHECK(leaf->opens_to == LeafSide::front);
   leaf = leaf_in(door_with({1.9, -0.2, 0}, -M_PI / 2 - 0.3, 0.88, 1.98));
   REQUIRE(leaf);
   CHECK(leaf->angle == doctest::Approx(M_PI / 2 - 0.3));
   CHECK(leaf->hinge == LeafHinge::left);
-  CHECK_FALSE(leaf->to_front);
+  CHECK(leaf->opens_to == LeafSide::back);
 }
 
 TEST_CASE("a leaf is the same in a turned world, which is valid with it, and without it") {
@@ -62,7 +62,7 @@ TEST_CASE("a leaf is the same in a turned world, which is valid with it, and wit
   REQUIRE(there);
   CHECK(there->angle == doctest::Approx(here->angle).epsilon(1e-4));
   CHECK(there->hinge == here->hinge);
-  CHECK(there->to_front == here->to_front);
+  CHECK(there->opens_to == here->opens_to);
   world.openings = hang_leaves(world);
   CHECK(validate(world).empty());
   world.surfaces.pop_back();

@@ -62,7 +62,7 @@ std::optional<Leaf> hung_in(const Stand& opening, const Vec3& front, const Stand
       // Who looks at the front has the direction of up x front to the right.
       best = Leaf{.angle = angle,
                   .hinge = at_start ? LeafHinge::left : LeafHinge::right,
-                  .to_front = leaf.dot(front) > 0};
+                  .opens_to = leaf.dot(front) > 0 ? LeafSide::front : LeafSide::back};
     }
   }
   return best;

@@ -266,8 +266,7 @@ Mended leave_out_invalid(World world) {
   for (const Surface& s : kept.world.surfaces)
     kept.from.push_back(
         static_cast<std::size_t>(find_surface(world, s.id) - world.surfaces.data()));
-  for (Opening& o : world.openings)
-    if (o.leaf && !find_surface(kept.world, o.leaf->surface)) o.leaf.reset();
+  forget_missing_surfaces(surface_ids(kept.world), world);
   const auto beside_surfaces = [&](const Opening& o) {
     World trial = beside_its_surface(o);
     if (o.leaf && o.leaf->surface != o.surface)
@@ -295,18 +294,11 @@ Mended leave_out_invalid(World world) {
   };
   keep_valid(world, &World::rooms, beside_all, kept);
   keep_valid(world, &World::doors, beside_all, kept);
-  for (Way& way : world.ways) {
-    const auto forget = [](std::optional<int>& id, const auto& is_there) {
-      if (id && !is_there(*id)) id.reset();
-    };
-    for (auto& id : way.floors)
-      forget(id, [&](int floor) { return find_surface(kept.world, floor) != nullptr; });
-    for (auto& id : way.rooms)
-      forget(id, [&](int room) {
-        return std::any_of(kept.world.rooms.begin(), kept.world.rooms.end(),
-                           [&](const Room& r) { return r.id == room; });
-      });
-  }
+  for (Way& way : world.ways)
+    for (std::optional<int>& room : way.rooms)
+      if (std::none_of(kept.world.rooms.begin(), kept.world.rooms.end(),
+                       [&](const Room& r) { return r.id == room; }))
+        room.reset();
   keep_valid(world, &World::ways, beside_all, kept);
   drop_vertices(kept.world);
   return kept;

@@ -162,11 +162,9 @@ Surface read_surface(const Node& n) {
 
 Leaf read_leaf(const Node& n) {
   n.expect_keys({"surface", "angle", "hinge", "opens_to"});
-  const std::string to = n.at("opens_to").text();
-  if (to != "front" && to != "back")
-    n.at("opens_to").fail(fmt::format("'{}' is none of front, back", to.substr(0, 60)));
   return {n.at("surface").integer(), n.at("angle").number(),
-          n.at("hinge").one_of({LeafHinge::left, LeafHinge::right}), to == "front"};
+          n.at("hinge").one_of({LeafHinge::left, LeafHinge::right}),
+          n.at("opens_to").one_of({LeafSide::front, LeafSide::back})};
 }
 
 Opening read_opening(const Node& n) {

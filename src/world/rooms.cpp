@@ -309,6 +309,12 @@ RoomMap find_rooms(const World& world, const RoomOptions& options) {
   return map;
 }
 
+void set_rooms(World& world, RoomMap map) {
+  world.rooms = std::move(map.rooms);
+  world.doors = std::move(map.doors);
+  world.ways = std::move(map.ways);
+}
+
 OptionList list_options(RoomOptions& o) {
   return {
       {"rooms.storeys.min_height", &o.storeys.min_height, "m", "from one storey to the next", 0.5},

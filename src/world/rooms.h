@@ -47,4 +47,7 @@ inline std::size_t count_of(const RoomMap& map) { return map.rooms.size(); }
 // outside, or to where there is no room, are none. docs/maps.md tells how.
 RoomMap find_rooms(const World& world, const RoomOptions& options = {});
 
+// Gives a world the rooms that were found, the doors and the ways.
+void set_rooms(World& world, RoomMap map);
+
 }  // namespace scanworld

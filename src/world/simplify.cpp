@@ -63,20 +63,24 @@ std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const V
   return box;
 }
 
+void forget_missing_surfaces(const std::set<int>& kept, World& world) {
+  for (Opening& o : world.openings)
+    if (o.leaf && !kept.contains(o.leaf->surface)) o.leaf.reset();
+  for (Way& way : world.ways)
+    for (std::optional<int>& floor : way.floors)
+      if (floor && !kept.contains(*floor)) floor.reset();
+}
+
 void drop_dangling(World& world) {
   const std::set<int> kept = surface_ids(world);
   std::erase_if(world.colliders, [&](const Collider& c) { return !kept.contains(c.surface); });
   std::erase_if(world.openings, [&](const Opening& o) { return !kept.contains(o.surface); });
-  for (Opening& o : world.openings)
-    if (o.leaf && !kept.contains(o.leaf->surface)) o.leaf.reset();
+  forget_missing_surfaces(kept, world);
   std::set<int> openings;
   for (const Opening& o : world.openings) openings.insert(o.id);
   std::erase_if(world.doors, [&](const Door& d) { return !openings.contains(d.opening); });
   for (Room& room : world.rooms)
     std::erase_if(room.surfaces, [&](int id) { return !kept.contains(id); });
-  for (Way& way : world.ways)
-    for (std::optional<int>& end : way.floors)
-      if (end && !kept.contains(*end)) end.reset();
   drop_vertices(world);
 }
 

@@ -21,6 +21,10 @@ World simplify(World world, const SimplifyOptions& options);
 // The upright box or cylinder, whichever holds less, around a hull.
 std::variant<OrientedBox, Cylinder> simple_solid(const ConvexHull& hull, const Vec3& up);
 
+// Lets openings and ways forget the surfaces that are not among those that are kept, where they can
+// do without: leaves, and the floors that a way begins and ends on.
+void forget_missing_surfaces(const std::set<int>& kept, World& world);
+
 // Removes what refers to surfaces and openings that are gone, and vertices that nothing refers to.
 void drop_dangling(World& world);
 

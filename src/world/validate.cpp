@@ -149,18 +149,14 @@ class Validator {
     const std::string name = fmt::format("way {}", w.id);
     check_place(name + ": the foot", w.foot);
     check_place(name + ": the top", w.top);
-    const auto check_positive = [&](const char* what, double value) {
-      if (!(value > 0 && std::isfinite(value)))
-        report("{}: the {} {} is not positive", name, what, value);
-    };
-    check_positive("width", w.width);
-    check_positive("rise", world_.frame.up.dot(w.top - w.foot));
+    check_size(name, "width", w.width);
+    check_size(name, "rise", world_.frame.up.dot(w.top - w.foot));
     if (w.kind == WayKind::stairs) {
-      check_positive("riser", w.riser);
-      check_positive("tread", w.tread);
+      check_size(name, "riser", w.riser);
+      check_size(name, "tread", w.tread);
       if (w.steps < 2) report("{}: stairs of {} steps", name, w.steps);
     } else {
-      check_positive("slope", w.slope);
+      check_size(name, "slope", w.slope);
     }
     for (const std::optional<int>& id : w.floors)
       if (id) check_surface_id(name, *id);

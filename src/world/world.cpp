@@ -53,6 +53,11 @@ const char* name_of(LeafHinge hinge) {
   return names[static_cast<int>(hinge)];
 }
 
+const char* name_of(LeafSide side) {
+  static constexpr const char* names[] = {"front", "back"};
+  return names[static_cast<int>(side)];
+}
+
 const char* name_of(WayKind kind) {
   static constexpr const char* names[] = {"stairs", "ramp"};
   return names[static_cast<int>(kind)];

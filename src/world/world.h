@@ -43,6 +43,7 @@ struct Surface {
 enum class OpeningKind { door, window, passage };
 
 enum class LeafHinge { left, right };
+enum class LeafSide { front, back };
 
 // A door's leaf that stands open, a surface of its own.
 struct Leaf {
@@ -50,7 +51,7 @@ struct Leaf {
   double angle = 0;  // [rad] from closed
   // The side that it hangs on, for who stands before the opening's surface and looks at it.
   LeafHinge hinge = LeafHinge::left;
-  bool to_front = false;  // whether it opens to where that surface looks, or to the other side
+  LeafSide opens_to = LeafSide::front;  // where that surface looks, or the other side
   bool operator==(const Leaf&) const = default;
 };
 
@@ -204,6 +205,7 @@ const char* name_of(Source source);
 const char* name_of(OpeningKind kind);
 const char* name_of(WayKind kind);
 const char* name_of(LeafHinge hinge);
+const char* name_of(LeafSide side);
 const char* name_of(CurveType type);
 
 // Of any triangulation without further vertices.

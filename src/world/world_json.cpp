@@ -69,7 +69,7 @@ Json to_json(const Opening& o) {
     j["leaf"] = {{"surface", o.leaf->surface},
                  {"angle", o.leaf->angle},
                  {"hinge", name_of(o.leaf->hinge)},
-                 {"opens_to", o.leaf->to_front ? "front" : "back"}};
+                 {"opens_to", name_of(o.leaf->opens_to)}};
   return j;
 }
 

@@ -84,7 +84,7 @@ World full_world() {
                             .width = 1,
                             .height = 1,
                             .evidence = "seen through",
-                            .leaf = Leaf{0, 1.0 / 3, LeafHinge::right, true}});
+                            .leaf = Leaf{0, 1.0 / 3, LeafHinge::right, LeafSide::front}});
   world.openings[0].loop = world.surfaces[1].holes[0];
   world.obstacles = {
       {.id = 0,
