@@ -105,17 +105,28 @@ class Joiner {
 
 // Joins slabs two by two for as long as that goes.
 void join_all(std::vector<Slab>& slabs, const Joiner& joiner) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t a = 0; a < slabs.size() && !changed; ++a)
-      for (std::size_t b = a + 1; b < slabs.size() && !changed; ++b)
-        if (const auto both =
-                joiner.join(joiner.around(slabs[a]).merged(joiner.around(slabs[b])))) {
-          slabs[a] = *both;
-          slabs.erase(slabs.begin() + static_cast<std::ptrdiff_t>(b));
-          changed = true;
-        }
-  }
+  const auto join = [&](std::size_t a, std::size_t b) {
+    const auto both = joiner.join(joiner.around(slabs[a]).merged(joiner.around(slabs[b])));
+    if (!both) return false;
+    slabs[a] = *both;
+    slabs.erase(slabs.begin() + static_cast<std::ptrdiff_t>(b));
+    return true;
+  };
+  for (std::size_t a = 0; a < slabs.size(); ++a)
+    for (std::size_t b = a + 1; b < slabs.size();) {
+      if (!join(a, b)) {
+        ++b;
+        continue;
+      }
+      // One that has grown is tried again with those before it, and with all behind it; no other
+      // two have changed.
+      for (std::size_t before = 0; before < a;)
+        if (join(before, a))
+          a = before, before = 0;
+        else
+          ++before;
+      b = a + 1;
+    }
 }
 
 }  // namespace
