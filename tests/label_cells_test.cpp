@@ -128,6 +128,23 @@ TEST_CASE("what is hidden under a table is free, with a table top over it") {
   CHECK(label_at(space, {1, 1.5, -0.05}) == space::Label::solid);  // under the scanner
 }
 
+TEST_CASE("nobody falls out of a room behind what hides its floor") {
+  // A board that one sees over: of the floor between it and the wall behind it nothing is seen.
+  const Vec3 room(6, 4, 2.5);
+  for (const double height : {0.7, 1.1}) {
+    std::vector<RoomSide> sides = box_sides(Vec3::Zero(), room, true);
+    sides.push_back({{4.5, 0.5, 0}, {0, 3, 0}, {0, 0, height}});
+    const space::LabelledSpace space = run_space(seen_from(sides, {{1, 2, 1.5}})).label();
+    for (double x = 4.9; x < room.x(); x += 0.2) {
+      if (height < 1)
+        CHECK(label_at(space, {x, 2, 0.1}) == space::Label::free);
+      else
+        CHECK(label_at(space, {x, 2, 0.1}) != space::Label::unknown);
+      CHECK(label_at(space, {x, 2, -0.05}) == space::Label::solid);
+    }
+  }
+}
+
 TEST_CASE("a single view stays open to where the camera is: no surface is there") {
   // A floor and two walls, seen from where there are no others.
   const Vec3 camera(3.5, 3.5, 1.5);
@@ -224,6 +241,10 @@ TEST_CASE("a surface is cheapest where it was seen from its free side, dearest w
   CHECK(price(bare, 0, unknown) < price(bare, 0, solid));  // an open side is, in the open ...
   CHECK(price(near, 0, unknown) > price(near, 0, solid));  // ... a surface where a plane goes on
   CHECK(price(empty, 0, unknown) == 0);
+  // Nobody may fall out of a room.
+  const space::FacetEvidence above{.area = 1, .over_floor = 0};
+  CHECK(price(above, 0, unknown) > price(bare, 0, unknown));
+  CHECK(price(above, 1, unknown) == price(bare, 1, unknown));
   facet.cells = {-1, 1};
   CHECK(price(bare, 1, solid) == 0);
 }

@@ -89,15 +89,6 @@ bool is_room_floor(const Patch& patch, double area, const std::vector<Patch>& pa
   return false;
 }
 
-// How far a patch may go on [m]. Only of one that is large it is asked whether it is a floor.
-double reach_of(const Patch& patch, double area, const std::vector<Patch>& patches, const Vec3& up,
-                const CoverOptions& options) {
-  const double reach = options.reach_share * std::sqrt(area);
-  const bool is_floor = reach > std::min(options.max_reach, options.floor_reach) &&
-                        is_room_floor(patch, area, patches, up);
-  return std::clamp(reach, options.min_reach, is_floor ? options.floor_reach : options.max_reach);
-}
-
 Cover cover_of(const Patch& patch, const std::vector<Patch>& patches, const Sight& sight,
                const CoverOptions& options) {
   Cover cover{.plane = patch.plane, .frame = patch.frame};
@@ -105,7 +96,12 @@ Cover cover_of(const Patch& patch, const std::vector<Patch>& patches, const Sigh
   const double cell = patch.hit.cell;
   const auto cells = std::count(patch.covered.bits.begin(), patch.covered.bits.end(), 1);
   cover.area = static_cast<double>(cells) * cell * cell;
-  cover.reach = reach_of(patch, cover.area, patches, sight.up(), options);
+  const double reach = options.reach_share * std::sqrt(cover.area);
+  // Only of a large one it is asked whether it is a floor.
+  cover.is_room_floor = reach > std::min(options.max_reach, options.floor_reach) &&
+                        is_room_floor(patch, cover.area, patches, sight.up());
+  cover.reach = std::clamp(reach, options.min_reach,
+                           cover.is_room_floor ? options.floor_reach : options.max_reach);
   const int more = static_cast<int>(std::ceil(cover.reach / cell));
   const Raster& supported = cover.supported = widened(patch.covered, more);
   cover.distance = distance_around(cover, empty_like(supported));

@@ -28,6 +28,7 @@ struct Cover {
                                 // kBlocked where there is none
   double area = 0;              // [m2] that is supported
   double reach = 0;             // [m] so far it may go on
+  bool is_room_floor = false;   // it looks up, and ceilings are over a part of it
 
   std::vector<float> stands_for;  // [cells] the area that the points in a cell stand for, or 0
 

@@ -15,6 +15,7 @@ namespace {
 constexpr int kMostPlaces = 4000;     // that a facet is looked at
 constexpr double kMostExtended = 10;  // the highest weight of what is extended
 constexpr double kGrowth = 3;         // of that weight, for each size of what has points
+constexpr double kAboutLevel = 0.7;   // cosine of a normal to up
 constexpr double kGrain = 1e-6;       // [m2] rays are summed in whole ones: in any order the same
 
 std::uint64_t key_of(int from, int to) {
@@ -126,6 +127,20 @@ FacetEvidence ask(const CellComplex& cells, const CellFacet& facet,
   return e;
 }
 
+// Whether the floor of a room goes on below a facet.
+bool is_over_floor(const CellComplex& cells, const CellFacet& facet,
+                   const std::vector<const Cover*>& floors) {
+  constexpr double kHighest = 4;  // [m]
+  Vec3 middle = Vec3::Zero();
+  for (const int v : facet.vertices) middle += cells.vertex(v);
+  middle /= static_cast<double>(facet.vertices.size());
+  return std::any_of(floors.begin(), floors.end(), [&](const Cover* floor) {
+    const double height = floor->plane.signed_distance(middle);
+    const auto at = floor->supported.find(floor->frame.to_plane(middle));
+    return height > 0 && height < kHighest && at && floor->distance[*at] <= floor->reach;
+  });
+}
+
 // Sums of rays, exact whatever their order.
 struct RaySums {
   std::unordered_map<std::uint64_t, std::int64_t> passages;
@@ -193,12 +208,18 @@ Evidence find_evidence(const Arrangement& arrangement, const std::vector<SpacePl
       speakers[plane].push_back({&covers[patch], part.is_flipped});
       plane_of_patch[patch] = static_cast<int>(plane);
     }
+  std::vector<const Cover*> floors;
+  for (const Cover& cover : covers)
+    if (cover.is_room_floor) floors.push_back(&cover);
   Evidence evidence;
   evidence.facets.resize(cells.facets().size());
   parallel_for(evidence.facets.size(), [&](std::size_t f) {
     const CellFacet& facet = cells.facets()[f];
     const std::vector<Speaker>& own = speakers[static_cast<std::size_t>(facet.plane)];
     evidence.facets[f] = ask(cells, facet, own);
+    const double rise = cells.plane(facet.plane).normal.dot(up);
+    if (std::abs(rise) > kAboutLevel && is_over_floor(cells, facet, floors))
+      evidence.facets[f].over_floor = rise > 0 ? 0 : 1;
     evidence.facets[f].is_floor = std::any_of(own.begin(), own.end(), [&](const Speaker& s) {
       return s.cover->plane.normal.dot(up) > kLevelCosine;
     });

@@ -20,6 +20,7 @@ struct FacetEvidence {
                         // m or at the size of what has points
   bool is_bare = true;  // no plane with points is there ...
   bool is_floor = false;  // a plane with points there looks upwards
+  int over_floor = -1;    // of one that is about level, with a room's floor below: its upper side
   bool is_back = false;   // ... but the back of a plate, that lines of sight go behind
 };
 

@@ -73,6 +73,8 @@ OptionList list_options(SpaceOptions& o) {
       {"space.labels.open", &o.labels.open, "",
        "of an open side to what is unknown, where a plane goes on", 0},
       {"space.labels.open_floor", &o.labels.open_floor, "", "where a floor goes on", 0},
+      {"space.labels.open_over_floor", &o.labels.open_over_floor, "",
+       "where free is over unknown, above where the floor of a room goes on", 0},
       {"space.labels.open_bare", &o.labels.open_bare, "", "and elsewhere", 0},
       {"space.labels.border", &o.labels.border, "", "of an open side at the border of all", 0},
       {"space.labels.border_crossed", &o.labels.border_crossed, "", "where lines of sight go", 0},
