@@ -154,6 +154,33 @@ TEST_CASE("stairs are no ground, they would need a facet each few centimetres") 
   CHECK(find_ground(floor_to(5), places, {}, scale).facets == 0);
 }
 
+TEST_CASE("ground beside stairs stays where they are left out") {
+  // A slope, and from y = 5 on stairs up it.
+  std::vector<Vec3> places;
+  for (double x = 0.025; x < 15; x += 0.05)
+    for (double y = 0.025; y < 10; y += 0.05) {
+      const double up = std::max(0.0, x - 5) / 6;
+      places.emplace_back(x, y, y < 5 ? up : 0.05 * std::floor(up / 0.05));
+    }
+  GroundOptions options;
+  options.max_facets = 6;
+  const Ground ground = find_ground(floor_to(5), places, {}, {kTolerance, 0.05}, options);
+  for (double x = 6; x < 14; x += 0.5) {
+    CHECK(heights_at(ground, {x, 2}).size() == 1);
+    CHECK(heights_at(ground, {x, 8}).empty());
+  }
+}
+
+TEST_CASE("ground goes on for a metre beyond what was seen, as it rises there") {
+  const Ground ground = find(floor_to(5), hill_places(0, 10));
+  for (const double beyond : {0.3, 0.8}) {
+    const std::vector<double> heights = heights_at(ground, {10 + beyond, 2.5});
+    REQUIRE(heights.size() == 1);
+    CHECK(std::abs(heights[0] - hill(10)) < 0.1);
+  }
+  CHECK(heights_at(ground, {11.5, 2.5}).empty());
+}
+
 TEST_CASE("the upper side of a ceiling is no ground") {
   FoundSurface ceiling{.plane = {-Vec3::UnitZ(), -0.2},
                        .outer = {{5, 0, -0.2}, {5, 5, -0.2}, {15, 5, -0.2}, {15, 0, -0.2}}};

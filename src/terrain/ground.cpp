@@ -9,6 +9,7 @@
 #include "../world/simplify.h"
 #include "../world/vertex_pool.h"
 #include "gaps.h"
+#include "rough.h"
 
 namespace scanworld::terrain {
 
@@ -89,7 +90,8 @@ class GroundFinder {
       const Heights known = grow_storey(columns, level_, floors, heights_);
       Storey storey = uncovered(known);
       std::vector<Facet> facets = cut(storey);
-      if (drop_rough(facets, storey)) facets = cut(storey);
+      for (const bool in_parts : {true, false})
+        if (drop_rough(facets, storey, in_parts)) facets = cut(storey);
       replace_floors(storey);
       cut_.push_back(std::move(facets));
     }
@@ -104,7 +106,8 @@ class GroundFinder {
   // What is told of the ground of a storey.
   struct Storey {
     Heights ground;
-    Raster seen;                          // where it is known from points
+    Raster seen;                          // where it is known from points ...
+    Raster counts;                        // ... and not as the floor of a room
     Raster wanted;                        // where no floor that stays covers it ...
     Raster under;                         // ... and a little under those
     std::vector<const Flat*> fit, unfit;  // floors that stay, and that may give way
@@ -122,22 +125,20 @@ class GroundFinder {
     return cut_facets(storey.ground, all, storey.seen, options_.error * tolerance_);
   }
 
-  // Leaves out the pieces that need too many facets; false where there are none.
-  bool drop_rough(const std::vector<Facet>& facets, Storey& storey) const {
-    std::vector<std::size_t> facets_at(storey.wanted.bits.size());
-    for (const Facet& facet : facets)
-      if (!facet.cells.empty()) ++facets_at[facet.cells.front()];
+  // Leaves out what needs too many facets; false where there is nothing.
+  bool drop_rough(const std::vector<Facet>& facets, Storey& storey, bool in_parts) const {
     const Raster all = storey.all();
-    bool any = false;
-    for (const std::vector<std::size_t>& piece : pieces_of(all)) {
-      std::size_t count = 0;
-      for (const std::size_t i : piece) count += facets_at[i];
-      const double area = static_cast<double>(piece.size()) * all.cell * all.cell;
-      if (static_cast<double>(count) <= options_.max_facets * area) continue;
-      any = true;
-      for (const std::size_t i : piece) storey.wanted.bits[i] = storey.under.bits[i] = 0;
-    }
-    return any;
+    Raster left = without_rough(all, storey.seen, facets, options_.max_facets, in_parts);
+    if (left.bits == all.bits) return false;
+    left = large(left, storey.counts);
+    for (std::size_t i = 0; i < left.bits.size(); ++i)
+      storey.wanted.bits[i] &= left.bits[i], storey.under.bits[i] &= left.bits[i];
+    return true;
+  }
+
+  // The pieces with so much of them that counts that they are ground.
+  Raster large(const Raster& wanted, const Raster& counts) const {
+    return large_pieces(wanted, counts, cells_of(options_.min_area), options_.min_seen);
   }
 
   // Floors that most of the ground takes the place of go, and others are parts of it.
@@ -178,7 +179,9 @@ class GroundFinder {
     const Raster& known = seen.known;
     const int reach = std::max(1, static_cast<int>(std::lround(heights_.reach / known.cell)));
     const int margin = static_cast<int>(std::ceil(options_.margin / known.cell));
-    Heights ground = filled(seen, surface::grow(surface::close(known, reach), margin), reach);
+    const int beyond = static_cast<int>(std::ceil(options_.beyond / known.cell));
+    Heights ground =
+        filled(seen, surface::grow(surface::close(known, reach), beyond), std::max(reach, beyond));
     const Raster open = seen_through(ground, level_, lines_, 5 * tolerance_);
     for (std::size_t i = 0; i < open.bits.size(); ++i)
       if (open.bits[i] && !known.bits[i]) ground.known.bits[i] = 0;
@@ -211,7 +214,7 @@ class GroundFinder {
         const double over = ceiling.height_at(level_, known.middle(i)) - ground.height[i];
         if (over > kRoom || std::abs(over) < kSlab) counts.bits[i] = 0;
       }
-    wanted = large_pieces(wanted, counts, cells_of(options_.min_area), options_.min_seen);
+    wanted = large(wanted, counts);
 
     // A little goes on under the floors around; where it is over them, down to them.
     const Heights own{.known = wanted, .height = ground.height};
@@ -223,6 +226,7 @@ class GroundFinder {
         ground.height[i] = std::min(under.height[i], floor_height[i]);
       }
     storey.ground = std::move(ground), storey.wanted = std::move(wanted);
+    storey.counts = std::move(counts);
     return storey;
   }
 
@@ -369,7 +373,8 @@ OptionList list_options(GroundOptions& o) {
       {"ground.max_off", &o.max_off, "",
        "share of a floor's cells off the ground; a floor with more is none", 0, 1},
       {"ground.error", &o.error, "floor_tolerance", "facets are off the ground by no more", 0.01},
-      {"ground.margin", &o.margin, "m", "ground goes on so far under what stands on it", 0},
+      {"ground.margin", &o.margin, "m", "ground goes on so far under the floors beside it", 0},
+      {"ground.beyond", &o.beyond, "m", "and so far beyond what is seen of it", 0},
   };
 }
 

@@ -17,7 +17,8 @@ struct GroundOptions {
   double max_facets = 20;  // [1/m2] of a piece of it; stairs and heaps need more, and are none
   double max_off = 0.2;    // share of a floor's cells off the ground; a floor with more is none
   double error = 0.75;     // [tolerance] facets are off the ground by no more
-  double margin = 0.2;     // [m] ground goes on so far under what stands on it
+  double margin = 0.2;     // [m] ground goes on so far under the floors beside it
+  double beyond = 1;       // [m] ground goes on so far beyond what is seen of it
 };
 
 OptionList list_options(GroundOptions& options);

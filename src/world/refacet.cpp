@@ -18,7 +18,7 @@ namespace scanworld {
 namespace {
 
 constexpr double kSameAngle = 1e-3;  // [rad] from a ridge or an end: on it
-constexpr double kFarthest = 0.1;    // [m] that a corner moves
+constexpr double kMostMoved = 0.1;   // [m] that a corner moves
 constexpr double kParallel = 0.05;   // least singular value of planes that meet in a point
 
 // Where a point of a curve is on it, unrolled.
@@ -88,7 +88,7 @@ std::optional<Vec3> meet(const std::vector<Plane>& planes, const Vec3& near) {
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(kParallel);
   const Vec3 step = svd.solve(b);
-  if (!(step.norm() < kFarthest)) return std::nullopt;
+  if (!(step.norm() < kMostMoved)) return std::nullopt;
   const Vec3 p = near + step;
   for (const Plane& plane : planes)
     if (std::abs(plane.signed_distance(p)) > kPlanarTolerance / 2) return std::nullopt;

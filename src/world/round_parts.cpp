@@ -165,10 +165,10 @@ class RoundSearch {
   // Whether enough sides of an ellipsoid have points, and few are off them on the whole.
   bool is_seen_all_over(const Ellipsoid& e, const Indices& near, double on) const {
     static const std::vector<Vec3> directions = even_directions(kSides);
-    struct Side {
+    struct Count {
       double on = 0, near = 0, off = 0;
     };
-    std::array<Side, kSides> sides{};
+    std::array<Count, kSides> sides{};
     for (std::uint32_t i : near) {
       const Vec3& p = all_.points[i];
       const Vec3 q = e.to_ball * (p - e.center);
@@ -181,7 +181,7 @@ class RoundSearch {
       sides[best].on += std::abs(off) < tolerance();
     }
     double seen = 0, biased = 0;
-    for (const Side& side : sides) {
+    for (const Count& side : sides) {
       seen += side.on > 1;
       if (std::abs(side.off) > noise_ * (kMaxBias * side.near + 3 * std::sqrt(side.near)))
         biased += side.near;
