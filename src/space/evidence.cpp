@@ -130,14 +130,14 @@ FacetEvidence ask(const CellComplex& cells, const CellFacet& facet,
 // Whether the floor of a room goes on below a facet.
 bool is_over_floor(const CellComplex& cells, const CellFacet& facet,
                    const std::vector<const Cover*>& floors) {
-  constexpr double kHighest = 4;  // [m]
+  constexpr double kLowest = 0.2, kHighest = 4;  // [m] below, the floor is near
   Vec3 middle = Vec3::Zero();
   for (const int v : facet.vertices) middle += cells.vertex(v);
   middle /= static_cast<double>(facet.vertices.size());
   return std::any_of(floors.begin(), floors.end(), [&](const Cover* floor) {
     const double height = floor->plane.signed_distance(middle);
     const auto at = floor->supported.find(floor->frame.to_plane(middle));
-    return height > 0 && height < kHighest && at && floor->distance[*at] <= floor->reach;
+    return height > kLowest && height < kHighest && at && floor->distance[*at] <= floor->reach;
   });
 }
 
