@@ -241,6 +241,10 @@ TEST_CASE("a surface is cheapest where it was seen from its free side, dearest w
   CHECK(price(bare, 0, unknown) < price(bare, 0, solid));  // an open side is, in the open ...
   CHECK(price(near, 0, unknown) > price(near, 0, solid));  // ... a surface where a plane goes on
   CHECK(price(empty, 0, unknown) == 0);
+  // A floor goes on, with what is free over it; under it that is no floor.
+  const space::FacetEvidence floor{.area = 1, .extended = 0.5, .is_bare = false, .floor = 0};
+  CHECK(price(floor, 0, unknown) > price(near, 0, unknown));
+  CHECK(price(floor, 1, unknown) == price(near, 1, unknown));
   // Nobody may fall out of a room.
   const space::FacetEvidence above{.area = 1, .over_floor = 0};
   CHECK(price(above, 0, unknown) > price(bare, 0, unknown));

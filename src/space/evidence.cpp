@@ -220,9 +220,8 @@ Evidence find_evidence(const Arrangement& arrangement, const std::vector<SpacePl
     const double rise = cells.plane(facet.plane).normal.dot(up);
     if (std::abs(rise) > kAboutLevel && is_over_floor(cells, facet, floors))
       evidence.facets[f].over_floor = rise > 0 ? 0 : 1;
-    evidence.facets[f].is_floor = std::any_of(own.begin(), own.end(), [&](const Speaker& s) {
-      return s.cover->plane.normal.dot(up) > kLevelCosine;
-    });
+    for (const Speaker& s : own)
+      if (s.cover->plane.normal.dot(up) > kLevelCosine) evidence.facets[f].floor = s.is_flipped;
   });
   evidence.cells.resize(cells.cells().size());
   for (std::size_t f = 0; f < evidence.facets.size(); ++f)

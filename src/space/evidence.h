@@ -14,14 +14,14 @@ namespace scanworld::space {
 struct FacetEvidence {
   double area = 0;  // [m2]
   std::array<double, 2>
-      supported{};      // [m2] with points of a plane that looks to its front, its back
-  double empty = 0;     // [m2] where points should be
-  double extended = 0;  // [m2] beside points, each weighed by how far from them: 0 at them, 1 at 1
-                        // m or at the size of what has points
-  bool is_bare = true;  // no plane with points is there ...
-  bool is_floor = false;  // a plane with points there looks upwards
-  int over_floor = -1;    // of one that is about level, with a room's floor below: its upper side
-  bool is_back = false;   // ... but the back of a plate, that lines of sight go behind
+      supported{};       // [m2] with points of a plane that looks to its front, its back
+  double empty = 0;      // [m2] where points should be
+  double extended = 0;   // [m2] beside points, each weighed by how far from them: 0 at them, 1 at 1
+                         // m or at the size of what has points
+  bool is_bare = true;   // no plane with points is there ...
+  int floor = -1;        // the side that a plane with points there looks to, if that is up
+  int over_floor = -1;   // of one that is about level, with a room's floor below: its upper side
+  bool is_back = false;  // ... but the back of a plate, that lines of sight go behind
 };
 
 struct CellEvidence {

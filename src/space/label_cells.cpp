@@ -123,10 +123,11 @@ double price_of(const CellFacet& facet, const FacetEvidence& e, std::size_t free
   const double rest = std::max(0.0, e.area - right - wrong - e.empty);
   const double each = e.is_bare ? options.bare_facet : 0;
   if (other == Label::unknown) {
-    const double open = e.is_floor                                    ? options.open_floor
-                        : static_cast<int>(free_side) == e.over_floor ? options.open_over_floor
-                        : e.is_bare                                   ? options.open_bare
-                                                                      : options.open;
+    const auto side = static_cast<int>(free_side);
+    const double open = side == e.floor        ? options.open_floor
+                        : side == e.over_floor ? options.open_over_floor
+                        : e.is_bare            ? options.open_bare
+                                               : options.open;
     return each + wrong * options.reversed + rest * open;
   }
   return each + right * options.supported + wrong * options.reversed + e.empty * options.empty +
