@@ -163,9 +163,7 @@ TEST_CASE("a single view stays open to where the camera is: no surface is there"
     const auto one = space.labels[static_cast<std::size_t>(facet.cells[0])],
                other = space.labels[static_cast<std::size_t>(facet.cells[1])];
     if (std::minmax({one, other}) != std::pair(space::Label::free, space::Label::solid)) continue;
-    Vec3 middle = Vec3::Zero();
-    for (const int v : facet.vertices)
-      middle += space.arrangement.cells.vertex(v) / static_cast<double>(facet.vertices.size());
+    const Vec3 middle = space.arrangement.cells.middle_of(facet);
     CHECK(middle.minCoeff() < 0.01);  // in one of the three planes, or behind it
     ++shown;
   }

@@ -32,10 +32,8 @@ TEST_CASE("the sides of a facet's middle are its cells") {
   int checked = 0;
   for (const CellFacet& facet : complex.facets()) {
     if (complex.area_of(facet) < 1e-4) continue;
-    Vec3 middle = Vec3::Zero();
+    const Vec3 middle = complex.middle_of(facet);
     double nearest = 1;  // a sliver's middle is on all its edges, as far as doubles know
-    for (const int v : facet.vertices)
-      middle += complex.vertex(v) / static_cast<double>(facet.vertices.size());
     for (const int p : facet.edge_planes)
       nearest = std::min(nearest, std::abs(complex.plane(p).signed_distance(middle)));
     if (nearest < 1e-6) continue;

@@ -262,6 +262,13 @@ std::optional<std::array<int, 2>> CellComplex::sides_at(const Vec3& place, int p
   return {{leaf_below(child[0], relative), leaf_below(child[1], relative)}};
 }
 
+Vec3 CellComplex::middle_of(const CellFacet& facet) const {
+  Vec3 middle = Vec3::Zero();
+  for (const int v : facet.vertices)
+    middle += vertex(v) / static_cast<double>(facet.vertices.size());
+  return middle;
+}
+
 double CellComplex::area_of(const CellFacet& facet) const {
   return area_vector(vertices_, facet).norm() / 2;
 }

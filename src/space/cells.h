@@ -85,6 +85,7 @@ class CellComplex {
   const Plane& plane(int index) const { return rounded_[at(index)]; }     // as rounded
   const Vec3& vertex(int index) const { return vertices_.place(index); }  // rounded to double
   std::size_t vertex_count() const { return vertices_.size(); }
+  Vec3 middle_of(const CellFacet& facet) const;  // the mean of its vertices
   double area_of(const CellFacet& facet) const;  // [m2]
   double volume_of(int cell) const;              // [m3]
 

@@ -36,9 +36,7 @@ double depth_behind(const CellComplex& cells, const std::vector<Label>& labels,
   double whole = 0;
   for (const int f : surface.facets) {
     const CellFacet& facet = cells.facets()[static_cast<std::size_t>(f)];
-    Vec3 middle = Vec3::Zero();
-    for (const int v : facet.vertices)
-      middle += cells.vertex(v) / static_cast<double>(facet.vertices.size());
+    const Vec3 middle = cells.middle_of(facet);
     const double area = cells.area_of(facet) / static_cast<double>(facet.vertices.size() + 1);
     const bool is_border = facet.cells[0] < 0 || facet.cells[1] < 0;
     const auto look = [&](const Vec3& place) {

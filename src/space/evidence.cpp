@@ -131,9 +131,7 @@ FacetEvidence ask(const CellComplex& cells, const CellFacet& facet,
 bool is_over_floor(const CellComplex& cells, const CellFacet& facet,
                    const std::vector<const Cover*>& floors) {
   constexpr double kLowest = 0.2, kHighest = 4;  // [m] below, the floor is near
-  Vec3 middle = Vec3::Zero();
-  for (const int v : facet.vertices) middle += cells.vertex(v);
-  middle /= static_cast<double>(facet.vertices.size());
+  const Vec3 middle = cells.middle_of(facet);
   return std::any_of(floors.begin(), floors.end(), [&](const Cover* floor) {
     const double height = floor->plane.signed_distance(middle);
     const auto at = floor->supported.find(floor->frame.to_plane(middle));
