@@ -311,6 +311,16 @@ std::int32_t add_ground(const CloudInWorld& cloud, const std::vector<Vec3>& plac
   return first;
 }
 
+// Adds what was not seen of flights of stairs; what is told of each surface follows.
+void complete_stairs(const std::vector<SightLine>& lines, const ReconstructOptions& options,
+                     StageLog& log, ReconstructResult& result) {
+  result.world = log.run("Completing stairs", "surfaces -> surfaces", result.world.surfaces, [&] {
+    return complete_stairs(std::move(result.world), lines, options.stairs, options.rooms.ways);
+  });
+  if (!result.report.plane_noise.empty())
+    result.report.plane_noise.resize(result.world.surfaces.size());
+}
+
 // Adds the solids of what no surface explains.
 void enclose_clutter(const PointCloud& cloud, NoiseMap noise, const ObstacleOptions& options,
                      StageLog& log, ReconstructResult& result) {
@@ -336,9 +346,10 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
                               const Progress& progress) {
   ReconstructResult result;
   Recorder recorder(options.record);
-  StageLog log(
-      result.report, progress,
-      options.method == Method::thesis ? 16 : 34 + options.space.is_on + options.ground.is_on);
+  StageLog log(result.report, progress,
+               options.method == Method::thesis
+                   ? 16
+                   : 34 + options.space.is_on + options.ground.is_on + options.stairs.is_on);
   const DistinctPoints distinct = log.run("Merging duplicates", "points -> duplicates", scan,
                                           [&] { return find_distinct(scan); });
   const PointCloud& cloud = distinct.of(scan);
@@ -369,6 +380,8 @@ ReconstructResult reconstruct(const PointCloud& scan, const ReconstructOptions& 
   const std::int32_t first_facet = options.method == Method::rival && options.ground.is_on
                                        ? add_ground(place, places, lines, options, log, result)
                                        : static_cast<std::int32_t>(world.surfaces.size());
+  if (options.method == Method::rival && options.stairs.is_on)
+    complete_stairs(lines, options, log, result);
   world.openings = log.run("Finding openings", "surfaces -> openings", world.surfaces, [&] {
     FoundOpenings openings = find_openings(world, {lines, places});
     world.vertices.insert(world.vertices.end(), openings.corners.begin(), openings.corners.end());

@@ -17,6 +17,7 @@
 #include "terrain/ground.h"
 #include "thesis/thesis.h"
 #include "world/colliders.h"
+#include "world/complete_stairs.h"
 #include "world/leaves.h"
 #include "world/level.h"
 #include "world/obstacles.h"
@@ -39,6 +40,7 @@ struct ReconstructOptions {
   ThicknessOptions thickness;
   ColliderOptions colliders;
   LeafOptions leaves;
+  StairsOptions stairs;
   RoomOptions rooms;
   LevelOptions frame;
   double floor_tolerance = 0.02;  // [m] what lies no higher on a floor is that floor: carpets

@@ -23,8 +23,8 @@ OptionList list_options(ReconstructOptions& options) {
        {surface::list_options(options.surface), space::list_options(options.space),
         terrain::list_options(options.ground), thesis::list_options(options.thesis),
         list_options(options.thickness), list_options(options.colliders),
-        list_options(options.obstacles), list_options(options.leaves), list_options(options.rooms),
-        list_options(options.rooms.ways), list_options(options.frame)})
+        list_options(options.obstacles), list_options(options.leaves), list_options(options.stairs),
+        list_options(options.rooms), list_options(options.rooms.ways), list_options(options.frame)})
     list.insert(list.end(), more.begin(), more.end());
   list.push_back({"floor_tolerance", &options.floor_tolerance, "m",
                   "what lies no higher on a floor is that floor, as carpets are", 0});

@@ -64,7 +64,7 @@ TEST_CASE("build writes its folder with world, report and exports") {
   CHECK(report["triangles"] == 12);
   CHECK(report["peak_memory_mb"].get<double>() > 1);
   CHECK(report["world_hash"] == world_hash(read_world(folder / "world")));
-  CHECK(report["stages"].size() == 39);
+  CHECK(report["stages"].size() == 40);
   CHECK(report["complete_seconds"].get<double>() > 0);
 }
 

@@ -107,7 +107,7 @@ TEST_CASE("a threshold of a centimetre and a half and a step of two stay") {
     return p.x() < 3 ? 0 : p.x() > 3.15 ? 1 : 2;
   });
   std::size_t raised = 0;
-  for (const Cluster& c : threshold.joined().clusters)
+  for (const rival::Cluster& c : threshold.joined().clusters)
     raised += c.fit.centroid.z() > 0.012 && area_of(c.fit) < 1;
   CHECK(raised == 1);
 

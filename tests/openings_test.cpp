@@ -116,6 +116,21 @@ TEST_CASE("the sides within a wall tell a door's width, not where its face ends 
   CHECK(find_openings(world).corners.size() == 4);
 }
 
+TEST_CASE("a window that a curtain hides a part of one side of is one still") {
+  World world = wall_with_door_and_window();
+  const auto add = [&](double x, double z) {
+    world.vertices.emplace_back(x, 0, z);
+    return static_cast<int>(world.vertices.size()) - 1;
+  };
+  Loop& hole = world.surfaces[0].holes[0];
+  hole.insert(hole.begin() + 1, {add(3, 1.2), add(3.07, 1.2), add(3.07, 1.6), add(3, 1.6)});
+  std::vector<Opening> found = find_openings(world).openings;
+  std::erase_if(found, [](const Opening& o) { return o.kind != OpeningKind::window; });
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].width == doctest::Approx(1.13));
+  CHECK(found[0].height == doctest::Approx(1.2));
+}
+
 TEST_CASE("a wall in pieces around a doorway has one still") {
   World world;
   const auto add = [&](double x0, double x1, double z0, double z1) {

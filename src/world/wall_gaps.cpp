@@ -25,7 +25,7 @@ constexpr double kRoom = 0.4;         // [m] from a wall, so far a floor goes at
 constexpr double kFloor = 2;          // [m2] smaller ones may be tables
 constexpr double kBesideCosine = 0.95, kClose = 0.1;  // [m] of what closes a gap of a face
 constexpr double kInside = 0.012;        // [m] less of a surface in a row does not close it
-constexpr double kNearSide = 0.03;       // [m] off a side of a gap, where what is beside it begins
+constexpr double kNearSide = 0.1;        // [m] off a side of a gap, where what is beside it begins
 constexpr std::size_t kMostGaps = 64;    // of a face
 constexpr std::size_t kMostSteps = 400;  // along each axis of a face; of more the longest edges
 

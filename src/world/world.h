@@ -211,6 +211,8 @@ const char* name_of(CurveType type);
 // Of any triangulation without further vertices.
 std::size_t triangle_count(const World& world);
 
+inline std::size_t count_of(const World& world) { return world.surfaces.size(); }
+
 // The surface with an id; null where there is none.
 const Surface* find_surface(const World& world, int id);
 
