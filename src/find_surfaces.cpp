@@ -194,6 +194,7 @@ class SurfaceFinder {
     const space::LabelledSpace space =
         log_.run("Labelling space", "planes -> cells", patches_,
                  [&] { return space::label_space(input, outlook, viewpoints_, space_options_); });
+    record_space(space);
     space::InterfaceOptions interfaces = space_options_.interfaces;
     interfaces.is_closed = space_options_.unknown == space::Unknown::solid;
     return log_.run("Finding interfaces", "cells -> surfaces", space, [&] {
@@ -203,7 +204,7 @@ class SurfaceFinder {
                                  space::labels_of_surfaces(space.labels, space_options_.unknown),
                                  interfaces),
           space::labels_behind(space.labels, space_options_.unknown), in_.planes, outlook.covers);
-      recorder_.add("Arrangement", "planes cut space; surfaces are where free meets solid",
+      recorder_.add("Labelling space", "what lies in one plane between free and solid is a surface",
                     loops_of(found.pieces));
       std::vector<FoundSurface> surfaces = describe_all(found.pieces, found.planes);
       parallel_for(surfaces.size(), [&](std::size_t k) {
@@ -219,6 +220,21 @@ class SurfaceFinder {
       });
       return surfaces;
     });
+  }
+
+  void record_space(const space::LabelledSpace& space) {
+    if (!recorder_.is_on()) return;
+    const auto count = [&](space::Label label) {
+      return std::count(space.labels.begin(), space.labels.end(), label);
+    };
+    recorder_.add("Labelling space",
+                  fmt::format("planes cut space into {} cells", space.labels.size()),
+                  cells_of(space));
+    recorder_.add("Labelling space",
+                  fmt::format("a cut tells what each is: {} are free, {} solid, {} unknown",
+                              count(space::Label::free), count(space::Label::solid),
+                              count(space::Label::unknown)),
+                  free_sides_of(space));
   }
 
   std::vector<FoundSurface> describe_all(const std::vector<Piece>& pieces,

@@ -216,6 +216,69 @@ void record_walls(Recorder& recorder, std::size_t points,
     add_clusters(recorder, "Final approximation", "clusters that are walls", points, walls);
 }
 
+namespace {
+
+// Of each plane of the complex the patch with most points in it; of others a number after all
+// patches.
+std::vector<int> patches_in_planes(const space::LabelledSpace& space) {
+  const auto& parts = space.arrangement.parts;
+  int next = 0;
+  for (const space::SpacePlane& p : space.planes) next = std::max(next, p.patch + 1);
+  std::vector<int> patch_of(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    double most = 0;
+    patch_of[k] = next + static_cast<int>(k);
+    for (const auto& part : parts[k]) {
+      const space::SpacePlane& p = space.planes[static_cast<std::size_t>(part.plane)];
+      if (p.kind == space::SpacePlane::Kind::surface && p.size > most)
+        most = p.size, patch_of[k] = p.patch;
+    }
+  }
+  return patch_of;
+}
+
+ReplayLoop loop_of(const space::LabelledSpace& space, const space::CellFacet& facet, int label) {
+  ReplayLoop loop{label, false, {}};
+  for (const int v : facet.vertices) loop.vertices.push_back(space.arrangement.cells.vertex(v));
+  return loop;
+}
+
+}  // namespace
+
+std::vector<ReplayLoop> cells_of(const space::LabelledSpace& space, std::size_t most) {
+  const std::vector<space::CellFacet>& facets = space.arrangement.cells.facets();
+  const std::vector<int> patch_of = patches_in_planes(space);
+  std::vector<std::size_t> shown;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    if (facets[f].cells[0] >= 0 && facets[f].cells[1] >= 0 && !space.evidence.facets[f].is_bare)
+      shown.push_back(f);
+  std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
+    return space.evidence.facets[a].area > space.evidence.facets[b].area;
+  });
+  if (shown.size() > most) shown.resize(most);
+  std::vector<ReplayLoop> loops;
+  for (const std::size_t f : shown)
+    loops.push_back(loop_of(space, facets[f], patch_of[static_cast<std::size_t>(facets[f].plane)]));
+  return loops;
+}
+
+std::vector<ReplayLoop> free_sides_of(const space::LabelledSpace& space) {
+  const std::vector<int> patch_of = patches_in_planes(space);
+  std::vector<ReplayLoop> loops;
+  for (const space::CellFacet& facet : space.arrangement.cells.facets()) {
+    if (facet.cells[0] < 0 || facet.cells[1] < 0) continue;
+    const auto label = [&](std::size_t side) {
+      return space.labels[static_cast<std::size_t>(facet.cells[side])];
+    };
+    const auto is_between = [&](space::Label a, space::Label b) {
+      return (label(0) == a && label(1) == b) || (label(0) == b && label(1) == a);
+    };
+    if (is_between(space::Label::free, space::Label::solid))
+      loops.push_back(loop_of(space, facet, patch_of[static_cast<std::size_t>(facet.plane)]));
+  }
+  return loops;
+}
+
 std::vector<ReplayLoop> loops_of(const std::vector<surface::CornerPolygon>& polygons) {
   std::vector<ReplayLoop> loops;
   for (const surface::CornerPolygon& polygon : polygons)

@@ -9,6 +9,7 @@
 #include "replay.h"
 #include "rival/cluster.h"
 #include "rival/local.h"
+#include "space/space.h"
 #include "surface/weld.h"
 #include "thesis/polygons.h"
 #include "thesis/spreading.h"
@@ -70,6 +71,12 @@ void record_placing(Recorder& recorder, const std::vector<Vec3>& points,
 thesis::SpreadingObserver watch_spreading(Recorder& recorder, std::size_t points);
 void record_walls(Recorder& recorder, std::size_t points,
                   const std::vector<thesis::Cluster>& walls);
+
+// The cells that planes cut space into, by their facets: the largest of those that lie in planes
+// with points, each by the patch with most points in its plane. And what the cut leaves of them:
+// facets between what is free and what is solid, those of planes without points too.
+std::vector<ReplayLoop> cells_of(const space::LabelledSpace& space, std::size_t most = 4000);
+std::vector<ReplayLoop> free_sides_of(const space::LabelledSpace& space);
 
 // Polygons, by the index of their plane or cluster.
 std::vector<ReplayLoop> loops_of(const std::vector<surface::CornerPolygon>& polygons);

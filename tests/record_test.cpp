@@ -128,11 +128,34 @@ TEST_CASE("a replay shows an even part of many points and counts the changes of 
   for (const auto& [square, count] : in_square) CHECK(std::abs(count - 62) < 35);
 }
 
+TEST_CASE("the cells of space, then what the cut leaves of them, come before the surfaces") {
+  ReconstructOptions options{.record = true};
+  const ReconstructResult result = reconstruct(room_points({4, 3, 2.5}, 0.05, kNoise), options);
+  const std::vector<ReplayStep>& steps = result.replay->steps;
+  REQUIRE(steps.size() > 3);
+  const auto area_of = [](const ReplayStep& step) {
+    double area = 0;
+    for (const ReplayLoop& loop : step.loops) {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t i = 0; i < loop.vertices.size(); ++i)
+        sum += loop.vertices[i].cross(loop.vertices[(i + 1) % loop.vertices.size()]);
+      area += sum.norm() / 2;
+    }
+    return area;
+  };
+  const double surfaces = 2 * (4 * 3 + 4 * 2.5 + 3 * 2.5);
+  const auto end = steps.end();
+  CHECK(area_of(end[-3]) > 1.05 * surfaces);  // planes go on beyond the room
+  CHECK(area_of(end[-2]) == doctest::Approx(surfaces).epsilon(0.02));
+  CHECK(area_of(end[-1]) == doctest::Approx(area_of(end[-2])).epsilon(1e-6));
+  CHECK(end[-2].loops.size() >= end[-1].loops.size());
+}
+
 TEST_CASE("both methods are recorded stage by stage, without a change to the world") {
   const PointCloud cloud = room_points({4, 3, 2.5}, 0.05, kNoise);
   const std::map<Method, std::vector<std::string>> stages = {
       {Method::rival,
-       {"Seeds", "Growth", "Rivalry", "Parting and bridging", "Evidence", "Arrangement"}},
+       {"Seeds", "Growth", "Rivalry", "Parting and bridging", "Evidence", "Labelling space"}},
       {Method::thesis, {"Placing", "Spreading", "Final approximation"}}};
   for (const auto& [method, wanted] : stages) {
     ReconstructOptions options{.method = method};
