@@ -45,6 +45,22 @@ class CellSet {
   bool contains(const Vec3& place, double edge) const {
     return has_code(place, edge) && contains(morton_of(cell_of(place, edge)));
   }
+  // Asks for cells that are near each other one after the other: most lie in the block of the last.
+  class Reader {
+   public:
+    explicit Reader(const CellSet& cells) : cells_(cells) {}
+    bool contains(std::uint64_t code) {
+      if (const std::uint64_t key = code >> kBlockBits; key != key_)
+        key_ = key, block_ = cells_.find(key);
+      return block_ && CellSet::contains(*block_, code);
+    }
+
+   private:
+    const CellSet& cells_;
+    const Block* block_ = nullptr;
+    std::uint64_t key_ = ~std::uint64_t{0};  // of no block
+  };
+
   void insert(const CellSet& more) {
     for (const Block& from : more.blocks_) {
       Block& to = block_of(from.key);

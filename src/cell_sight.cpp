@@ -18,13 +18,10 @@ constexpr std::size_t kCellsPerPart = 4096;
 bool is_hidden(std::uint64_t cell, const Eigen::Vector3i& viewpoint, const CellSet& opaque) {
   int gap = 0;
   bool has_left = false, meets = false;
-  std::uint64_t key = ~std::uint64_t{0};
-  const CellSet::Block* block = nullptr;
+  CellSet::Reader cells(opaque);
   walk_cells(cell_at(cell).cast<double>() + Vec3::Constant(0.5), viewpoint,
              [&](std::uint64_t code) {
-               if (code >> CellSet::kBlockBits != key)
-                 key = code >> CellSet::kBlockBits, block = opaque.find(key);
-               const bool is_opaque = block && CellSet::contains(*block, code);
+               const bool is_opaque = cells.contains(code);
                gap = is_opaque ? 0 : gap + 1;
                has_left = has_left || gap == 2;
                meets = is_opaque && has_left;

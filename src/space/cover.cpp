@@ -167,9 +167,12 @@ std::vector<Cover> find_covers(const std::vector<Patch>& patches,
       const int other = seam->a == static_cast<int>(k) ? seam->b : seam->a;
       block(covers[k], covers[static_cast<std::size_t>(other)], *seam, blocked);
     }
-    distances[k] = distance_around(covers[k], blocked);
+    if (std::find(blocked.bits.begin(), blocked.bits.end(), 1) != blocked.bits.end())
+      distances[k] = distance_around(covers[k], blocked);
   });
-  for (std::size_t k = 0; k < covers.size(); ++k) covers[k].distance = std::move(distances[k]);
+  // Only now, as covers ask each other what may stand at a seam.
+  for (std::size_t k = 0; k < covers.size(); ++k)
+    if (!distances[k].empty()) covers[k].distance = std::move(distances[k]);
   return covers;
 }
 

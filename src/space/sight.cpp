@@ -84,9 +84,10 @@ bool Sight::is_hidden(const Vec3& place, const Vec3& normal, const Vec3& to) con
   if (length < kClear * cell_) return false;
   if (!has_code(place, cell_) || !has_code(to, cell_)) return true;
   bool hidden = false;
+  CellSet::Reader occupied(occupied_);
   walk_cells((place + way * (kClear * cell_ / length)) / cell_, cell_of(to, cell_),
              [&](std::uint64_t code) {
-               if (!occupied_.contains(code)) return true;
+               if (!occupied.contains(code)) return true;
                hidden = normal.dot(middle_of_cell(code, cell_) - place) > kClear * cell_;
                return !hidden;
              });

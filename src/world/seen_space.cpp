@@ -85,8 +85,9 @@ CellSet look_from_viewpoints(const PointCloud& cloud, const CellSet& occupied, c
     const auto way = clip_way(viewpoints[viewers[i]] / cell,
                               cell_at(targets[i]).cast<double>() + Vec3::Constant(0.5), where);
     if (!way) return;
+    CellSet::Reader cells(occupied);
     walk_cells(way->from, way->to, [&](std::uint64_t code) {
-      if (!occupied.contains(code)) seen.insert(code);
+      if (!cells.contains(code)) seen.insert(code);
       return true;
     });
   });
@@ -136,9 +137,10 @@ CellSet look_between_surfaces(const World& world, const CellSet& occupied, const
     const Eigen::Vector3i to = cell_of(end, cell);
     const auto way_inside = clip_way(from, end / cell, where);
     if (!way_inside) return;
-    bool is_free = !occupied.contains(morton_of(to));
+    CellSet::Reader cells(occupied);
+    bool is_free = !cells.contains(morton_of(to));
     if (is_free)
-      walk_cells(from, to, [&](std::uint64_t code) { return is_free = !occupied.contains(code); });
+      walk_cells(from, to, [&](std::uint64_t code) { return is_free = !cells.contains(code); });
     if (!is_free) return;
     walk_cells(way_inside->from, way_inside->to, [&](std::uint64_t code) {
       seen.insert(code);
