@@ -151,6 +151,43 @@ TEST_CASE("a box that is seen from outside is no room, though floor is under it"
   CHECK(*map.rooms[0].area == doctest::Approx(18).epsilon(0.02));
 }
 
+TEST_CASE(
+    "a room tells how high it is and what it holds, tilted or not; under the sky it does not") {
+  const World world = drawn("room");
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.2, Vec3(1, 2, 0).normalized()));
+  for (const World& w : {world, moved(world, turn, {1, 2, 3})}) {
+    const RoomMap map = find_rooms(w);
+    REQUIRE(map.rooms.size() == 1);
+    CHECK(map.rooms[0].height.value() == doctest::Approx(2.7).epsilon(1e-4));
+    CHECK(map.rooms[0].volume.value() == doctest::Approx(20 * 2.7).epsilon(0.03));
+  }
+  World open = world;
+  std::erase_if(open.surfaces, [](const Surface& s) { return s.kind == Kind::ceiling; });
+  const RoomMap map = find_rooms(open);
+  REQUIRE(map.rooms.size() == 1);
+  CHECK_FALSE(map.rooms[0].height);
+  CHECK_FALSE(map.rooms[0].volume);
+}
+
+TEST_CASE("under a ceiling that slopes a room holds what is below it") {
+  World world = drawn("room");
+  for (Surface& s : world.surfaces) {
+    if (s.kind != Kind::ceiling || area(world, s) < 10) continue;
+    // From 2.7 m at x = 0 to 3.7 m at x = 5.
+    for (int& v : s.outer) {
+      Vec3 p = world.vertices[static_cast<std::size_t>(v)];
+      p.z() += p.x() / 5;
+      v = static_cast<int>(world.vertices.size());
+      world.vertices.push_back(p);
+    }
+    s.plane = plane_through({0, 0, 2.7}, Vec3(0.2, 0, -1).normalized());
+  }
+  const RoomMap map = find_rooms(world);
+  REQUIRE(map.rooms.size() == 1);
+  CHECK(map.rooms[0].height.value() == doctest::Approx(3.2).epsilon(0.01));
+  CHECK(map.rooms[0].volume.value() == doctest::Approx(20 * 3.2).epsilon(0.03));
+}
+
 TEST_CASE("two storeys have their own rooms, numbered from the lower one") {
   World world = drawn("room");
   const World above = moved(world, Eigen::Quaterniond::Identity(), {0, 0, 3});

@@ -242,10 +242,12 @@ CurvedPart read_curve(const Node& n) {
 }
 
 Room read_room(const Node& n) {
-  n.expect_keys({"id", "name", "surfaces", "?area", "?center"});
+  n.expect_keys({"id", "name", "surfaces", "?area", "?center", "?height", "?volume"});
   Room r{n.at("id").integer(), n.at("name").text(), n.at("surfaces").integers()};
   if (n.has("area")) r.area = n.at("area").number();
   if (n.has("center")) r.center = n.at("center").vector();
+  if (n.has("height")) r.height = n.at("height").number();
+  if (n.has("volume")) r.volume = n.at("volume").number();
   return r;
 }
 

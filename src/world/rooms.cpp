@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "../quantile.h"
 #include "room_cells.h"
 #include "upright.h"
 
@@ -44,6 +45,7 @@ struct Region {
   std::size_t border = 0;                  // sides of cells that other regions or none are beyond
   double walls = 0;                        // [m] that look into it
   std::map<std::size_t, double> surfaces;  // index -> [m2] or [m] in common
+  std::vector<double> heights;             // [m] of its cells, from the floor to the ceiling
 };
 
 // The rooms of one storey.
@@ -81,6 +83,12 @@ class StoreyRooms {
   Room describe(std::size_t region) const {
     const Region& r = regions_[region];
     Room room{.area = area_of(r)};
+    if (2 * r.heights.size() >= r.cells) {
+      room.height = median(r.heights);
+      double sum = 0;
+      for (const double height : r.heights) sum += height;
+      room.volume = *room.area * sum / static_cast<double>(r.heights.size());
+    }
     for (const auto& [s, shared] : r.surfaces)
       if (shared >= kMinShared) room.surfaces.push_back(world_.surfaces[s].id);
     std::sort(room.surfaces.begin(), room.surfaces.end());
@@ -233,20 +241,38 @@ class StoreyRooms {
       regions_[static_cast<std::size_t>(r)].surfaces[surface] += amount;
   }
 
-  // The lowest ceiling over each cell.
+  // The height of a surface at the middle of a cell.
+  double height_at(std::size_t cell, std::size_t surface) const {
+    const Vec3& normal = upright_.normals[surface];
+    return -(normal.head<2>().dot(grid_.center(cell)) + world_.surfaces[surface].plane.offset) /
+           normal.z();
+  }
+
+  // The lowest ceiling over each cell, and how high that is over the highest floor.
   void add_ceilings() {
+    constexpr double kHighest = std::numeric_limits<double>::max();
     struct Over {
-      double height = std::numeric_limits<double>::max();
+      double height = kHighest;
       std::int32_t surface = -1;
     };
     std::vector<Over> lowest(grid_.size());
-    visit_cells(Kind::ceiling, level_ + kLeastHeadroom, std::numeric_limits<double>::max(),
+    visit_cells(Kind::ceiling, level_ + kLeastHeadroom, kHighest,
                 [&](std::size_t i, std::size_t s, double height) {
                   if (height < lowest[i].height) lowest[i] = {height, static_cast<std::int32_t>(s)};
                 });
-    for (std::size_t i = 0; i < lowest.size(); ++i)
-      if (lowest[i].surface >= 0)
-        share(i, static_cast<std::size_t>(lowest[i].surface), grid_.cell * grid_.cell);
+    std::vector<double> floor(grid_.size(), -kHighest);
+    visit_cells(Kind::floor, level_ - options_.step, level_ + options_.step,
+                [&](std::size_t i, std::size_t s, double) {
+                  floor[i] = std::max(floor[i], height_at(i, s));
+                });
+    for (std::size_t i = 0; i < lowest.size(); ++i) {
+      if (lowest[i].surface < 0) continue;
+      const auto ceiling = static_cast<std::size_t>(lowest[i].surface);
+      share(i, ceiling, grid_.cell * grid_.cell);
+      if (cells_.of[i] >= 0 && floor[i] > -kHighest)
+        regions_[static_cast<std::size_t>(cells_.of[i])].heights.push_back(height_at(i, ceiling) -
+                                                                           floor[i]);
+    }
   }
 
   double area_of(const Region& r) const {

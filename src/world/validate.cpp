@@ -134,8 +134,11 @@ class Validator {
   void check(const Room& r) {
     const std::string name = fmt::format("room {}", r.id);
     for (int id : r.surfaces) check_surface_id(name, id);
-    if (r.area && !(*r.area > 0 && std::isfinite(*r.area)))
-      report("{}: the area {} is not positive", name, *r.area);
+    const auto check_size = [&](const char* what, std::optional<double> size) {
+      if (size && !(*size > 0 && std::isfinite(*size)))
+        report("{}: the {} {} is not positive", name, what, *size);
+    };
+    check_size("area", r.area), check_size("height", r.height), check_size("volume", r.volume);
     if (r.center) check_place(name + ": the center", *r.center);
   }
 

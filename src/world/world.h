@@ -126,6 +126,9 @@ struct Room {
   std::vector<int> surfaces;   // ids of those that bound it
   std::optional<double> area;  // [m2] of its floor
   std::optional<Vec3> center;  // a place on its floor, as near to the middle of it as can be
+  // [m] from the floor to the ceiling, over half of it, and [m3] between them; nothing where less
+  // than half of it has a ceiling.
+  std::optional<double> height = {}, volume = {};
   bool operator==(const Room&) const = default;
 };
 

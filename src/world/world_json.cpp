@@ -119,6 +119,8 @@ Json to_json(const Room& r) {
   Json j = {{"id", r.id}, {"name", r.name}, {"surfaces", r.surfaces}};
   if (r.area) j["area"] = *r.area;
   if (r.center) j["center"] = to_json(*r.center);
+  if (r.height) j["height"] = *r.height;
+  if (r.volume) j["volume"] = *r.volume;
   return j;
 }
 Json to_json(const Door& d) { return {{"opening", d.opening}, {"rooms", d.rooms}}; }
@@ -158,8 +160,10 @@ Json list_of(const std::vector<T>& items) {
 
 Json to_json(const World& w) {
   // Who knows version 1 alone can read what has nothing round, inferred in part or uneven in it, no
-  // stairs and no leaf.
+  // stairs, no leaf and no height of a room.
   const bool is_plain = w.curves.empty() && w.ways.empty() &&
+                        std::none_of(w.rooms.begin(), w.rooms.end(),
+                                     [](const Room& r) { return r.height || r.volume; }) &&
                         std::none_of(w.openings.begin(), w.openings.end(),
                                      [](const Opening& o) { return o.leaf.has_value(); }) &&
                         std::none_of(w.surfaces.begin(), w.surfaces.end(), [](const Surface& s) {
