@@ -131,6 +131,22 @@ TEST_CASE("a window that a curtain hides a part of one side of is one still") {
   CHECK(found[0].height == doctest::Approx(1.2));
 }
 
+TEST_CASE("what a cupboard hides of one face beside a door is none of it where the other face is") {
+  World world = wall_with_door_and_window();
+  add_back(world);
+  // The face before ends at the cupboard, 1 m beside the door and 1.5 m high.
+  const auto add = [&](double x, double z) {
+    world.vertices.emplace_back(x, 0, z);
+    return static_cast<int>(world.vertices.size()) - 1;
+  };
+  Loop& outer = world.surfaces[0].outer;
+  outer.erase(outer.begin() + 4);
+  outer.insert(outer.begin() + 4, {add(1.9, 1.5), add(2.9, 1.5), add(2.9, 0)});
+  const Opening door = door_of(world);
+  CHECK(door.width == doctest::Approx(0.9));
+  CHECK(door.height == doctest::Approx(2.05));
+}
+
 TEST_CASE("a wall in pieces around a doorway has one still") {
   World world;
   const auto add = [&](double x0, double x1, double z0, double z1) {

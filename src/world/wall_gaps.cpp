@@ -59,7 +59,8 @@ class GapFinder {
       if (!best) break;
       gaps.push_back(describe(*best));
       for (std::size_t y = best->y0; y < best->y1; ++y)
-        for (std::size_t x = best->x0; x < best->x1; ++x) filled_[cell(x, y)] = 1;
+        for (std::size_t x = best->x0; x < best->x1; ++x)
+          filled_[cell(x, y)] = shut_[cell(x, y)] = 1;
     }
     return gaps;
   }
@@ -82,14 +83,16 @@ class GapFinder {
       const Surface& s = world_.surfaces[i];
       const double cosine = s.plane.normal.dot(face_.plane.normal);
       const bool is_square = std::abs(cosine) < kSquare && !s.ground;
-      if (!is_square && cosine < kBesideCosine) continue;
+      if (!is_square && std::abs(cosine) < kBesideCosine) continue;
       const auto [box, depth] = extent_of(s);
       if (!near.intersects(box)) continue;
       if (is_square) {
         add_within(s, box, depth);
         add_floor(s, box, depth);
-      } else {
+      } else if (cosine > 0) {
         add_beside(i, box, depth);
+      } else {
+        add_back(s, depth);
       }
     }
   }
@@ -144,6 +147,15 @@ class GapFinder {
     for (const auto& ring : beside_.back()) add_edges(ring, world_.surfaces[i]);
   }
 
+  // The other face of the wall closes it too: a cupboard before a wall hides a gap beside a door.
+  void add_back(const Surface& s, const Depth& depth) {
+    if (s.kind != Kind::wall || s.source != Source::measured || depth.low < kNearSide ||
+        depth.high > options_.max_thickness)
+      return;
+    behind_.push_back(rings_of(world_, s, face_.frame));
+    for (const auto& ring : behind_.back()) add_edges(ring, s);
+  }
+
   // One stands on it on either side of the wall, whatever is below; not on a sill or a table.
   void add_floor(const Surface& s, const Box2& box, const Depth& depth) {
     const bool is_before = depth.low < -kRoom && depth.high > -kBeside,
@@ -174,14 +186,20 @@ class GapFinder {
     std::sort(steps.begin(), steps.end());
   }
 
-  // Cells that surfaces of the face are in, by three lines through each row.
+  // Cells that surfaces of the face are in.
   void fill_cells() {
     filled_.assign(columns() * rows(), 0);
+    fill(face_.rings, filled_), fill(beside_, filled_);
+    shut_ = filled_;
+    fill(behind_, shut_);
+  }
+
+  // By three lines through each row.
+  void fill(const std::vector<geos::Rings>& surfaces, std::vector<char>& cells) const {
     for (std::size_t y = 0; y < rows(); ++y)
       for (const double share : {0.1, 0.5, 0.9}) {
         const double height = steps_[1][y] + share * (steps_[1][y + 1] - steps_[1][y]);
-        for (const geos::Rings& rings : face_.rings) fill_row(y, crossings(rings, height));
-        for (const geos::Rings& rings : beside_) fill_row(y, crossings(rings, height));
+        for (const geos::Rings& rings : surfaces) fill_row(y, crossings(rings, height), cells);
       }
   }
 
@@ -197,12 +215,12 @@ class GapFinder {
     return found;
   }
 
-  void fill_row(std::size_t y, const std::vector<double>& ends) {
+  void fill_row(std::size_t y, const std::vector<double>& ends, std::vector<char>& cells) const {
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2)
       for (std::size_t x = 0; x < columns(); ++x)
         if (std::min(ends[k + 1], steps_[0][x + 1]) - std::max(ends[k], steps_[0][x]) >
             std::min(kInside, 0.5 * (steps_[0][x + 1] - steps_[0][x])))
-          filled_[cell(x, y)] = 1;
+          cells[cell(x, y)] = 1;
   }
 
   // Where cells end at what is within the wall: for each border the cells beside it, by rows or
@@ -295,7 +313,7 @@ class GapFinder {
       std::fill(shut.begin(), shut.end(), 0), std::fill(parted.begin(), parted.end(), 0);
       for (std::size_t y1 = y0 + 1; y1 <= rows(); ++y1) {
         for (std::size_t x = 0; x < columns(); ++x) {
-          shut[x] |= filled_[cell(x, y1 - 1)] || (y1 - 1 > y0 && is_walled(1, y1 - 1, x));
+          shut[x] |= shut_[cell(x, y1 - 1)] || (y1 - 1 > y0 && is_walled(1, y1 - 1, x));
           parted[x] |= is_walled(0, x, y1 - 1);
         }
         for (std::size_t x0 = 0; x0 < columns();) {
@@ -337,8 +355,10 @@ class GapFinder {
   std::vector<Side> sides_[2];  // upright ones, level ones
   std::vector<Box2> floors_;
   std::vector<geos::Rings> beside_;            // surfaces close before and behind the face
+  std::vector<geos::Rings> behind_;            // surfaces of the wall's other face
   std::vector<double> steps_[2];               // ascending
   std::vector<char> filled_;                   // cells
+  std::vector<char> shut_;                     // cells that are filled, or by the other face
   std::vector<char> walled_[2], measured_[2];  // borders between cells, upright and level
 };
 
