@@ -270,10 +270,8 @@ std::vector<ReplayLoop> free_sides_of(const space::LabelledSpace& space) {
     const auto label = [&](std::size_t side) {
       return space.labels[static_cast<std::size_t>(facet.cells[side])];
     };
-    const auto is_between = [&](space::Label a, space::Label b) {
-      return (label(0) == a && label(1) == b) || (label(0) == b && label(1) == a);
-    };
-    if (is_between(space::Label::free, space::Label::solid))
+    if (label(0) != label(1) && label(0) != space::Label::unknown &&
+        label(1) != space::Label::unknown)
       loops.push_back(loop_of(space, facet, patch_of[static_cast<std::size_t>(facet.plane)]));
   }
   return loops;

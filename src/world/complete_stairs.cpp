@@ -40,9 +40,11 @@ FlightAxes axes_of(const Way& way, const Vec3& up) {
 class Completer {
  public:
   Completer(World world, std::span<const SightLine> lines, const StairsOptions& options)
-      : world_(std::move(world)), lines_(lines), options_(options), pool_(world_.vertices) {
-    for (const Surface& s : world_.surfaces) next_id_ = std::max(next_id_, s.id + 1);
-  }
+      : world_(std::move(world)),
+        lines_(lines),
+        options_(options),
+        pool_(world_.vertices),
+        next_id_(next_id(world_)) {}
 
   void complete(const Way& way) {
     const FlightAxes axes = axes_of(way, world_.frame.up);
@@ -131,10 +133,9 @@ class Completer {
     const Plane plane = plane_through(panel.frame.origin, panel.frame.u.cross(panel.frame.v));
     std::size_t lines = 0;
     for (const SightLine& line : lines_) {
-      const double from = plane.signed_distance(line.from), to = plane.signed_distance(line.to);
-      if ((from > 0) == (to > 0) || std::abs(to) < kBeyond || std::abs(from) < kBeyond) continue;
-      const Vec3 place = line.from + (line.to - line.from) * (from / (from - to));
-      lines += part.contains(panel.frame.to_plane(place));
+      if (std::abs(plane.signed_distance(line.from)) < kBeyond) continue;
+      if (const auto place = line.crossing(plane, kBeyond))
+        lines += part.contains(panel.frame.to_plane(*place));
     }
     return static_cast<double>(lines);
   }
@@ -156,7 +157,7 @@ class Completer {
   const std::span<const SightLine> lines_;
   const StairsOptions& options_;
   VertexPool pool_;
-  int next_id_ = 0;
+  int next_id_;
 };
 
 }  // namespace

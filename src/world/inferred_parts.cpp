@@ -35,8 +35,7 @@ double inferred_area(const World& world) {
 bool cut_inferred(World& world) {
   std::vector<Surface> kept;
   bool is_less = false;
-  int next = 0;
-  for (const Surface& s : world.surfaces) next = std::max(next, s.id + 1);
+  int next = next_id(world);
   VertexPool pool(world.vertices, kGrain);
   for (const Surface& s : world.surfaces) {
     is_less |= s.source == Source::inferred || !s.inferred.empty();

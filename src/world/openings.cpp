@@ -65,10 +65,9 @@ void look_at(const WallFace& face, const SeenScan& scan, const OpeningOptions& o
     }
   }
   for (const SightLine& line : scan.lines) {
-    const double from = face.plane.signed_distance(line.from),
-                 to = face.plane.signed_distance(line.to);
-    if ((from > 0) == (to > 0) || std::abs(to) < kBeyond) continue;
-    const Vec2 p = face.frame.to_plane(line.from + (line.to - line.from) * (from / (from - to)));
+    const auto place = line.crossing(face.plane, kBeyond);
+    if (!place) continue;
+    const Vec2 p = face.frame.to_plane(*place);
     for (SeenGap& c : gaps) c.lines += c.gap.clear.contains(p);
   }
   for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -116,8 +115,8 @@ class OpeningFinder {
            (gap.is_low ? !is_niche(face, gap) : is_in_wall(face, gap));
   }
 
-  // Whether a gap is beside a part of the face that is as large, or in one of half of that: the bays
-  // of a shelf are beside the fronts of what stands in it.
+  // Whether a gap is beside a part of the face that is as large, or in one of half of that: the
+  // bays of a shelf are beside the fronts of what stands in it.
   bool is_in_wall(const WallFace& face, const WallGap& gap) const {
     for (std::size_t k = 0; k < face.surfaces.size(); ++k) {
       const Surface& surface = world_.surfaces[face.surfaces[k]];

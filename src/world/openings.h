@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,13 @@ namespace scanworld {
 // A line along which a scanner saw a point.
 struct SightLine {
   Vec3 from, to;
+
+  // Where it goes through a plane to end no nearer than `beyond` [m] to that.
+  std::optional<Vec3> crossing(const Plane& plane, double beyond) const {
+    const double before = plane.signed_distance(from), behind = plane.signed_distance(to);
+    if ((before > 0) == (behind > 0) || std::abs(behind) < beyond) return std::nullopt;
+    return from + (to - from) * (before / (before - behind));
+  }
 };
 
 struct OpeningOptions {

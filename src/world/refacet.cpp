@@ -390,10 +390,9 @@ class Recut {
   bool put(std::vector<Surface> made) {
     std::vector<int> ids;
     std::size_t points = 0;
-    int next = 0;
+    int next = next_id(world_);
     for (std::size_t f : facets_)
       ids.push_back(world_.surfaces[f].id), points += world_.surfaces[f].support.points;
-    for (const Surface& s : world_.surfaces) next = std::max(next, s.id + 1);
     double whole = 0;
     for (const Surface& s : made) whole += area(world_, s);
     if (made.empty() || !(whole > 0)) return false;

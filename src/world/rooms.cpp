@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "../quantile.h"
@@ -85,9 +86,8 @@ class StoreyRooms {
     Room room{.area = area_of(r)};
     if (2 * r.heights.size() >= r.cells) {
       room.height = median(r.heights);
-      double sum = 0;
-      for (const double height : r.heights) sum += height;
-      room.volume = *room.area * sum / static_cast<double>(r.heights.size());
+      room.volume = *room.area * std::accumulate(r.heights.begin(), r.heights.end(), 0.0) /
+                    static_cast<double>(r.heights.size());
     }
     for (const auto& [s, shared] : r.surfaces)
       if (shared >= kMinShared) room.surfaces.push_back(world_.surfaces[s].id);
@@ -220,9 +220,13 @@ class StoreyRooms {
         r.border += n >= grid_.size() || cells_.of[n] != cells_.of[i];
     }
     const double square = grid_.cell * grid_.cell;
+    std::vector<double> floor(grid_.size(), std::numeric_limits<double>::lowest());
     visit_cells(Kind::floor, level_ - options_.step, level_ + options_.step,
-                [&](std::size_t i, std::size_t s, double) { share(i, s, square); });
-    add_ceilings();
+                [&](std::size_t i, std::size_t s, double) {
+                  share(i, s, square);
+                  floor[i] = std::max(floor[i], height_over(i, s));
+                });
+    add_ceilings(floor);
     for (const WallCut& c : cuts_) {
       const double length = (c.b - c.a).norm();
       const int parts = static_cast<int>(std::ceil(length / grid_.cell));
@@ -242,14 +246,13 @@ class StoreyRooms {
   }
 
   // The height of a surface at the middle of a cell.
-  double height_at(std::size_t cell, std::size_t surface) const {
-    const Vec3& normal = upright_.normals[surface];
-    return -(normal.head<2>().dot(grid_.center(cell)) + world_.surfaces[surface].plane.offset) /
-           normal.z();
+  double height_over(std::size_t cell, std::size_t surface) const {
+    return height_at(upright_.normals[surface], world_.surfaces[surface].plane.offset,
+                     grid_.center(cell));
   }
 
-  // The lowest ceiling over each cell, and how high that is over the highest floor.
-  void add_ceilings() {
+  // The lowest ceiling over each cell, and how high that is over the floor there.
+  void add_ceilings(const std::vector<double>& floor) {
     constexpr double kHighest = std::numeric_limits<double>::max();
     struct Over {
       double height = kHighest;
@@ -260,18 +263,12 @@ class StoreyRooms {
                 [&](std::size_t i, std::size_t s, double height) {
                   if (height < lowest[i].height) lowest[i] = {height, static_cast<std::int32_t>(s)};
                 });
-    std::vector<double> floor(grid_.size(), -kHighest);
-    visit_cells(Kind::floor, level_ - options_.step, level_ + options_.step,
-                [&](std::size_t i, std::size_t s, double) {
-                  floor[i] = std::max(floor[i], height_at(i, s));
-                });
     for (std::size_t i = 0; i < lowest.size(); ++i) {
       if (lowest[i].surface < 0) continue;
       const auto ceiling = static_cast<std::size_t>(lowest[i].surface);
       share(i, ceiling, grid_.cell * grid_.cell);
-      if (cells_.of[i] >= 0 && floor[i] > -kHighest)
-        regions_[static_cast<std::size_t>(cells_.of[i])].heights.push_back(height_at(i, ceiling) -
-                                                                           floor[i]);
+      if (const std::int32_t r = cells_.of[i]; r >= 0)  // then it has a floor
+        regions_[static_cast<std::size_t>(r)].heights.push_back(height_over(i, ceiling) - floor[i]);
     }
   }
 

@@ -23,6 +23,11 @@ struct Upright {
   std::vector<Vec3> normals;  // of surfaces
 };
 
+// The height of an upright world's plane at a place; its normal may not be level.
+inline double height_at(const Vec3& normal, double offset, const Vec2& p) {
+  return -(normal.head<2>().dot(p) + offset) / normal.z();
+}
+
 // Where a segment passes a height, seen from above; nothing where it does not.
 std::optional<Vec2> crossing(const Vec3& p, const Vec3& q, double height);
 

@@ -26,6 +26,7 @@ constexpr double kFloor = 2;          // [m2] smaller ones may be tables
 constexpr double kBesideCosine = 0.95, kClose = 0.1;  // [m] of what closes a gap of a face
 constexpr double kInside = 0.012;        // [m] less of a surface in a row does not close it
 constexpr double kNearSide = 0.1;        // [m] off a side of a gap, where what is beside it begins
+constexpr double kThinnest = 0.1;        // [m] of a wall, as deep as what is beside its face
 constexpr std::size_t kMostGaps = 64;    // of a face
 constexpr std::size_t kMostSteps = 400;  // along each axis of a face; of more the longest edges
 
@@ -143,17 +144,20 @@ class GapFinder {
         box.sizes().minCoeff() < options_.min_piece ||
         std::binary_search(face_.surfaces.begin(), face_.surfaces.end(), i))
       return;
-    beside_.push_back(rings_of(world_, world_.surfaces[i], face_.frame));
-    for (const auto& ring : beside_.back()) add_edges(ring, world_.surfaces[i]);
+    add_closing(world_.surfaces[i], beside_);
   }
 
   // The other face of the wall closes it too: a cupboard before a wall hides a gap beside a door.
   void add_back(const Surface& s, const Depth& depth) {
-    if (s.kind != Kind::wall || s.source != Source::measured || depth.low < kNearSide ||
+    if (s.kind != Kind::wall || s.source != Source::measured || depth.low < kThinnest ||
         depth.high > options_.max_thickness)
       return;
-    behind_.push_back(rings_of(world_, s, face_.frame));
-    for (const auto& ring : behind_.back()) add_edges(ring, s);
+    add_closing(s, behind_);
+  }
+
+  void add_closing(const Surface& s, std::vector<geos::Rings>& to) {
+    to.push_back(rings_of(world_, s, face_.frame));
+    for (const auto& ring : to.back()) add_edges(ring, s);
   }
 
   // One stands on it on either side of the wall, whatever is below; not on a sill or a table.

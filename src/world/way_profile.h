@@ -25,7 +25,7 @@ struct WalkLevel {
   std::vector<std::vector<Vec2>> rings;
   Rectangle box;
 
-  double height(const Vec2& p) const { return -(normal.head<2>().dot(p) + offset) / normal.z(); }
+  double height(const Vec2& p) const { return height_at(normal, offset, p); }
 };
 
 // A way's middle line in plan, from where it goes up.

@@ -72,6 +72,12 @@ std::size_t triangle_count(const World& world) {
   return count;
 }
 
+int next_id(const World& world) {
+  int next = 0;
+  for (const Surface& s : world.surfaces) next = std::max(next, s.id + 1);
+  return next;
+}
+
 const Surface* find_surface(const World& world, int id) {
   const auto found = std::find_if(world.surfaces.begin(), world.surfaces.end(),
                                   [&](const Surface& s) { return s.id == id; });

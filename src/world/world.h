@@ -219,6 +219,9 @@ inline std::size_t count_of(const World& world) { return world.surfaces.size(); 
 // The surface with an id; null where there is none.
 const Surface* find_surface(const World& world, int id);
 
+// An id that no surface has, nor any with a larger one.
+int next_id(const World& world);
+
 // The area of a surface [m2], and the middle of it.
 double area(const World& world, const Surface& surface);
 Vec3 centroid(const World& world, const Surface& surface);
