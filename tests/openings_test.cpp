@@ -3,6 +3,7 @@
 #include "world/openings.h"
 
 #include "support/support.h"
+#include "world/validate.h"
 #include "world/world_json.h"
 
 using namespace scanworld;
@@ -114,6 +115,28 @@ TEST_CASE("the sides within a wall tell a door's width, not where its face ends 
   CHECK(door.width == doctest::Approx(0.76));
   CHECK(door.height == doctest::Approx(2.05));
   CHECK(find_openings(world).corners.size() == 4);
+}
+
+TEST_CASE("an opening lies in the plane of its surface where a wall's pieces are a little apart") {
+  World world;
+  const auto add_piece = [&](double y, const std::vector<Vec2>& outline) {
+    Surface piece{.id = static_cast<int>(world.surfaces.size()),
+                  .kind = Kind::wall,
+                  .plane = plane_through({0, y, 0}, -Vec3::UnitY())};
+    for (const Vec2& p : outline) {
+      piece.outer.push_back(static_cast<int>(world.vertices.size()));
+      world.vertices.emplace_back(p.x(), y, p.y());
+    }
+    world.surfaces.push_back(piece);
+  };
+  add_piece(0, {{0, 0}, {1, 0}, {1, 3}, {0, 3}});
+  add_piece(0.0019, {{1.9, 0}, {6, 0}, {6, 3}, {1, 3}, {1, 2.05}, {1.9, 2.05}});
+  const FoundOpenings found = find_openings(world);
+  REQUIRE(found.openings.size() == 1);
+  world.openings = found.openings;
+  world.vertices.insert(world.vertices.end(), found.corners.begin(), found.corners.end());
+  CHECK(find_surface(world, found.openings[0].surface)->plane.offset != 0);  // the lintel's
+  CHECK(validate(world).empty());
 }
 
 TEST_CASE("a window that a curtain hides a part of one side of is one still") {

@@ -10,6 +10,7 @@
 
 #include "../parallel.h"
 #include "../polygon.h"
+#include "validate.h"
 
 namespace scanworld {
 
@@ -227,10 +228,11 @@ class OpeningFinder {
     if (!scan_.lines.empty())
       evidence += lines > 0 ? fmt::format(", {} lines of sight go through", lines)
                             : ", no line of sight goes through";
+    const Surface& surface = world_.surfaces[surface_beside(face, clear)];
     result_.openings.push_back({.id = static_cast<int>(result_.openings.size()),
                                 .kind = kind,
-                                .surface = world_.surfaces[surface_beside(face, clear)].id,
-                                .loop = loop_of(face, clear),
+                                .surface = surface.id,
+                                .loop = loop_of(face, surface.plane, clear),
                                 .width = size.x(),
                                 .height = size.y(),
                                 .evidence = evidence});
@@ -248,20 +250,23 @@ class OpeningFinder {
     return face.surfaces[best];
   }
 
-  // Counter-clockwise seen against the face's normal. Corners of the face are used again.
-  Loop loop_of(const WallFace& face, const Box2& clear) {
+  // Counter-clockwise seen against the face's normal, in the plane of one of its surfaces: those of
+  // a wall in pieces are a little apart. Corners of the face that lie there are used again.
+  Loop loop_of(const WallFace& face, const Plane& plane, const Box2& clear) {
     Loop loop;
     for (const auto corner : {Box2::BottomLeft, Box2::BottomRight, Box2::TopRight, Box2::TopLeft})
-      loop.push_back(vertex_at(face, face.frame.to_space(clear.corner(corner))));
+      loop.push_back(
+          vertex_at(face, plane, plane.project(face.frame.to_space(clear.corner(corner)))));
     return loop;
   }
 
-  int vertex_at(const WallFace& face, const Vec3& place) {
+  int vertex_at(const WallFace& face, const Plane& plane, const Vec3& place) {
     std::optional<int> nearest;
     double least = kSameCorner;
     const auto look = [&](int v) {
-      const double d = (world_.vertices[static_cast<std::size_t>(v)] - place).norm();
-      if (d < least) least = d, nearest = v;
+      const Vec3& vertex = world_.vertices[static_cast<std::size_t>(v)];
+      if (std::abs(plane.signed_distance(vertex)) > kPlanarTolerance) return;
+      if (const double d = (vertex - place).norm(); d < least) least = d, nearest = v;
     };
     for (const std::size_t s : face.surfaces) {
       for (int v : world_.surfaces[s].outer) look(v);
